@@ -22,6 +22,7 @@ import pandas as pd
 
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
+from tire_pipeline.reporting.translation.translated_rows import listed
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 CLICKS = 20
@@ -60,6 +61,16 @@ requestAnimationFrame(() => requestAnimationFrame(() => {
 
 def made_up(count: int) -> str:
     """A page of translated files of made-up curves; none compresses like another."""
+    report, curves, moved = made_up_results(count)
+    tires = {file: f"{195 + 10 * (i % 9)}/55 rim 203.2" for i, file in enumerate(report["file"])}
+    drawn = DrawnFiles()
+    drawn.add(curves, moved, tires)
+    rows = listed([report], set(tires), drawn.tire)
+    return str(translated_page("Translated to D", ["Made up."], rows, drawn))
+
+
+def made_up_results(count: int) -> tuple[pd.DataFrame, dict[str, Any], pd.DataFrame]:
+    """Report, curves and moved coefficients of made-up files."""
     generator = np.random.default_rng(1)
     files = [f"{'ABCEF'[i % 5]}/tire_{i:04d}.tir" for i in range(count)]
     report = pd.DataFrame(
@@ -90,10 +101,7 @@ def made_up(count: int) -> str:
     names = [f"P{letter}Y{number}" for letter in "CDEKHV" for number in range(1, 4)]
     moved = pd.DataFrame([(file, name) for file in files for name in names], columns=["file", "coefficient"])
     moved = moved.assign(**{side: generator.normal(size=len(moved)) for side in ("from", "to")})
-    tires = {file: f"{195 + 10 * (i % 9)}/55 rim 203.2" for i, file in enumerate(files)}
-    drawn = DrawnFiles()
-    drawn.add(curves, moved)
-    return translated_page("Translated to D", ["Made up."], report, drawn, own=set(), tires=tires)
+    return report, curves, moved
 
 
 def measure(page: Path, profile: Path) -> tuple[float, list[float]]:

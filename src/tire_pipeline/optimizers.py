@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, TypeVar
+from typing import TypeVar, cast
 
 import torch
 
@@ -36,6 +36,5 @@ def uncompiled(kind: type[_Optimizer]) -> type[_Optimizer]:
     0.0
     """
     plain = {name: inspect.unwrap(getattr(kind, name)) for name in ("add_param_group", "zero_grad", "step")}
-    own: Any = type(kind.__name__, (kind,), {**plain, "step": torch.no_grad()(plain["step"])})
-    found: type[_Optimizer] = own
-    return found
+    own = type(kind.__name__, (kind,), {**plain, "step": torch.no_grad()(plain["step"])})
+    return cast("type[_Optimizer]", own)

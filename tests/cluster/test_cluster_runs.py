@@ -77,7 +77,8 @@ def _translate(files: dict, folder: Path) -> None:
     blocks = ComputedFolderDataset(path=str(folder))
     given = (pd.read_parquet(table), TranslateParameters(farthest=3.0), NormalizeParameters(), 0)
     blocks.save(translate_each(state, files, *given))
-    texts, report, *_ = join_translated(blocks.load(), state, given[1])
+    texts, found, *_ = join_translated(blocks.load(), state, given[1])
+    report = joined(found)
     assert len(report) == len(files)
     assert sorted(texts) == sorted(report.loc[report["verdict"] == "translated", "file"]) != []
 

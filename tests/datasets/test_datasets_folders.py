@@ -15,7 +15,10 @@ from tire_pipeline.files.folder_walk import walk
 def test_text_folder_round_trip_and_replacement(tmp_path):
     dataset = TextFolderDataset(path=str(tmp_path / "out"), suffix=".tir")
     dataset.save({"A/one.tir": "1", "B/two.tir": b"2"})
-    assert dataset.load() == {"A/one.tir": b"1", "B/two.tir": b"2"}
+    loaded = dataset.load()
+    assert loaded == {"A/one.tir": b"1", "B/two.tir": b"2"}
+    (tmp_path / "out/B/two.tir").write_bytes(b"3")
+    assert loaded["B/two.tir"] == b"3"  # read when it is asked for: all at once may be gigabytes
     dataset.save({"A/three.tir": "3"})
     assert dataset.load() == {"A/three.tir": b"3"}
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
@@ -93,6 +96,8 @@ def test_a_failed_page_leaves_the_old_page(tmp_path):
     dataset.save("old")
     with pytest.raises(DatasetError, match="surrogates"):
         dataset.save("\ud800")
+    with pytest.raises(DatasetError, match="surrogates"):
+        dataset.save(iter(["new", "\ud800"]))
     assert dataset.load() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["page.html"]
 

@@ -13,7 +13,7 @@ from kedro.io.core import VersionNotFoundError
 from tire_pipeline.datasets import CsvTableDataset, ReportPartsDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files import rows_on_disk
-from tire_pipeline.files.rows_on_disk import RowsOnDisk, joined
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, joined, plain_rows
 
 TYPES = {"file": "str", "line": "Int64", "ratio": "float64", "=what": "str"}
 NEWEST = Version(None, None)
@@ -35,9 +35,8 @@ def _table() -> pd.DataFrame:
 def rows(monkeypatch):
     monkeypatch.setattr(rows_on_disk, "REPORT_ROWS", 4)
     rows = RowsOnDisk(TYPES)
-    plain = _table().astype(object)
-    rows.add(plain.where(plain.notna(), None).itertuples(index=False))
-    return rows.table("select * from rows order by file", TYPES)
+    rows.add(plain_rows(_table()))
+    return FramesOfRows(rows, "select * from rows order by file", TYPES)
 
 
 def _stored(folder, data) -> ReportPartsDataset:
@@ -70,7 +69,7 @@ def test_parts_give_the_csv_of_the_whole_to_the_last_byte(rows, tmp_path):
 
 
 def test_a_report_without_rows_keeps_its_columns(tmp_path):
-    dataset = _stored(tmp_path, RowsOnDisk(TYPES).table("select * from rows", TYPES))
+    dataset = _stored(tmp_path, FramesOfRows(RowsOnDisk(TYPES), "select * from rows", TYPES))
     (frame,) = dataset.load()
     assert frame.dtypes.astype(str).to_dict() == TYPES
     written = io.StringIO(newline="")

@@ -25,7 +25,7 @@ TRANSLATION = [
     ("translated/.made_by", 1),
     ("translated/A/", 5),
     ("translated/.made_by", 2),
-    ("translation_report.csv/", 1),
+    ("translation_report.json/", 2),
     ("source_table.json/", 2),
     ("translation_protocols.parquet/", 1),
     ("translation_outcome.json", 1),
@@ -51,7 +51,7 @@ EXPLANATION = [
 def _whole(folder: Objects) -> dict[str, bytes] | None:
     """What another run would load of a folder of texts; None where it is refused."""
     try:
-        return TextFolderDataset(path=str(folder)).load()
+        return dict(TextFolderDataset(path=str(folder)).load())
     except DatasetError as error:
         if "stopped before it was done" in str(error):
             return None

@@ -21,7 +21,7 @@ REPORT = pd.DataFrame(
 def outcome(**parameters):
     demonstration = ["A/a.tir", "A/b.tir", "B/d.tir"]
     asked = TranslateParameters(**parameters)
-    _, said = translate_page(REPORT, {}, pd.DataFrame(), demonstration, asked, "D")
+    _, said = translate_page([REPORT], {}, pd.DataFrame(), demonstration, asked, "D")
     return said
 
 
@@ -44,7 +44,7 @@ def test_why_files_were_refused_and_which_are_the_targets_own_is_said():
             "expected_rms_ratio": float("nan"),
         }
     )
-    _, said = translate_page(report, {}, pd.DataFrame(), [], TranslateParameters(), "D")
+    _, said = translate_page([report], {}, pd.DataFrame(), [], TranslateParameters(), "D")
     counted = "0 translated to D, 3 refused, 1 already unbiased, 1 measured by D itself"
     assert said == [
         f"Your own 5 files: {counted}.",
@@ -54,9 +54,8 @@ def test_why_files_were_refused_and_which_are_the_targets_own_is_said():
 
 
 def test_where_no_file_was_refused_no_reason_is_given():
-    _, said = translate_page(
-        REPORT[REPORT["verdict"] == "translated"], {}, pd.DataFrame(), [], TranslateParameters(), "D"
-    )
+    translated = REPORT[REPORT["verdict"] == "translated"]
+    _, said = translate_page([translated], {}, pd.DataFrame(), [], TranslateParameters(), "D")
     assert not any("Refused" in line for line in said)
 
 

@@ -2,10 +2,18 @@
 
 from itertools import product
 
+import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, rows_of
+from tire_pipeline.reporting.translation.translated_rows import (
+    ROW_COLUMNS,
+    SHOWN_VERDICTS,
+    by_supplier,
+    in_order,
+    listed,
+    median_expected,
+)
 from tire_pipeline.reporting.translation.translation_page import MORE, RATIOS, check_goals, translation_page
 
 pytestmark = pytest.mark.slow
@@ -96,7 +104,8 @@ def test_a_file_just_beyond_the_edge_is_not_shown_on_it():
     report = pd.DataFrame(
         {"file": ["a", "b"], "distance": [1.0004, 0.9], "verdict": ["refused", "translated"]}
     )
-    assert [row[ROW_COLUMNS.index("distance")] for row in rows_of(report, set(), {})] == [1.01, 0.9]
+    rows = in_order(listed([report], set()))
+    assert [row[ROW_COLUMNS.index("distance")] for row in rows] == [1.01, 0.9]
 
 
 def test_own_files_come_first_and_those_that_need_no_translation_last():
@@ -107,8 +116,8 @@ def test_own_files_come_first_and_those_that_need_no_translation_last():
         "A/1.tir": "translated",
     }
     report = pd.DataFrame({"file": list(verdicts), "verdict": list(verdicts.values())})
-    rows = rows_of(report, {"lab/a.tir", "x/a.tir", "x/b.tir"}, {})
-    assert [row[0] for row in rows] == ["x/a.tir", "x/b.tir", "lab/a.tir", "A/1.tir"]
+    rows = listed([report.head(3), report.tail(1)], {"A/1.tir"})
+    assert [row[0] for row in in_order(rows)] == ["x/a.tir", "x/b.tir", "lab/a.tir", "A/1.tir"]
 
 
 def test_an_unknown_supplier_is_called_by_its_folder():
@@ -119,5 +128,25 @@ def test_an_unknown_supplier_is_called_by_its_folder():
             "verdict": ["unknown supplier", "unknown supplier", "refused"],
         }
     )
-    suppliers = {row[0]: row[ROW_COLUMNS.index("supplier")] for row in rows_of(report, set(), {})}
+    suppliers = {row[0]: row[ROW_COLUMNS.index("supplier")] for row in in_order(listed([report], set()))}
     assert suppliers == {"lab/1.tir": "lab", "2.tir": "unknown", "C/3.tir": "C"}
+
+
+@pytest.mark.parametrize("count", [1, 2, 31, 200])
+def test_each_supplier_has_its_counts_and_its_median(count):
+    rng = np.random.default_rng(count)
+    verdict = rng.choice(SHOWN_VERDICTS[:-1], count)
+    ratio = np.where(rng.random(count) < 0.2, np.nan, rng.random(count))
+    report = pd.DataFrame({"file": [f"{i}.tir" for i in range(count)], "source": rng.choice([*"AB"], count)})
+    report = report.assign(verdict=verdict, expected_rms_ratio=ratio)
+    rows = listed([report[:20], report[20:]], set())
+    acted = report[report["verdict"] == "translated"]
+    expected = acted["expected_rms_ratio"].median()
+    assert (median_expected(rows) is None) if np.isnan(expected) else (median_expected(rows) == expected)
+    found = {one["name"]: one for one in by_supplier(rows)}
+    assert sorted(found) == list(found) == sorted(set(report["source"]))
+    for name, part in report.groupby("source"):
+        counts = [(part["verdict"] == each).sum() for each in SHOWN_VERDICTS]
+        assert (found[name]["files"], found[name]["counts"]) == (len(part), counts)
+        shown = acted.loc[acted["source"] == name, "expected_rms_ratio"].dropna().map("{:.3g}".format)
+        assert found[name]["ratio"] == (f"{np.median(shown.astype(float)):.0%}" if len(shown) else "–")

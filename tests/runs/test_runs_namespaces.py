@@ -45,7 +45,7 @@ def _notes(folder: Path) -> list[Path]:
 
 def _results(folder: Path) -> set[str]:
     """Versions of what a retraining writes first."""
-    return {path.name for path in (folder / "data/02_intermediate/retraining_files.csv").glob("*")}
+    return {path.name for path in (folder / "data/02_intermediate/retraining_files.json").glob("*")}
 
 
 @pytest.mark.long

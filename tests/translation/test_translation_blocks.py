@@ -11,6 +11,7 @@ import pytest
 
 from tire_pipeline.datasets import ComputedFolderDataset, TextFolderDataset
 from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.row_products import by_row
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
@@ -56,7 +57,7 @@ def _translated(blocks, translator):
     """What a run makes of the blocks, each done once and stored."""
     blocks = {name: partial(bytes, block()) for name, block in blocks.items()}
     files, report, *tables, _ = join_translated(blocks, translator.to_state(), TranslateParameters())
-    frames = {"report": report}
+    frames = {"report": joined(report)}
     for name, loads in zip(("sources", "coefficients", "bands"), tables, strict=True):
         frame = pd.concat([part for part in (load() for load in loads) if len(part)], ignore_index=True)
         keys = [key for key in ("file", "coefficient", "output", "normal_load", "slip") if key in frame]
@@ -79,6 +80,7 @@ def test_blocks_of_any_size_give_the_same_to_the_last_bit(which, request, monkey
     rows = whole["report"].set_index("file")
     assert rows.loc["nobody/1.tir", "verdict"] == "unknown supplier"
     assert "cannot be read" in rows.loc["A/broken.tir", "reason"]
+    assert list(rows.index) == [*sorted(set(rows.index) - {"A/broken.tir"}), "A/broken.tir"]
     if which == "learning":
         assert rows["taught"].max() > 0
 

@@ -14,6 +14,7 @@ from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
+from tire_pipeline.reporting.translation.translated_rows import listed
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 pytestmark = pytest.mark.slow
@@ -84,15 +85,9 @@ def made():
             "to": [0.9, -18.123456],
         }
     )
-    page = translated_page(
-        "Translated to D",
-        ["302 files, to be as D would have measured them."],
-        report,
-        drawn(curves, moved),
-        own=set(OWN),
-        tires={file: TIRES.get(file[0], "") for file in report["file"]},
-    )
-    return page, report, curves
+    rows = listed([report], {*report["file"]} - {*OWN}, lambda file: TIRES.get(file[0], ""))
+    said = ["302 files, to be as D would have measured them."]
+    return str(translated_page("Translated to D", said, rows, drawn(curves, moved))), report, curves
 
 
 @pytest.fixture(scope="module")
@@ -328,9 +323,8 @@ def test_nothing_of_a_file_name_runs_and_nothing_is_asked_for_elsewhere(driver, 
 def test_a_hostile_supplier_and_title_stay_text(tmp_path):
     needs_browser()
     report = _report().head(3).assign(source="</script><img src=x onerror=window.hacked=1>")
-    page = translated_page(
-        "<b>T", ["<i>line"], report, drawn(_curves(report), pd.DataFrame()), own=set(), tires={}
-    )
+    drawn_files = drawn(_curves(report), pd.DataFrame())
+    page = str(translated_page("<b>T", ["<i>line"], listed([report], set(report["file"])), drawn_files))
     assert "<img" not in page
     place = Path(tmp_path / "page.html")
     place.write_text(page, encoding="utf-8")

@@ -39,17 +39,6 @@ class RowsOnDisk:
         """Do a statement of SQL; its result is read as it is found."""
         return self._database.execute(statement, values)
 
-    def table(self, query: str, columns: Mapping[str, str]) -> FramesOfRows:
-        """What a query selects.
-
-        Parameters
-        ----------
-        query : str
-        columns : mapping of str to str
-            Name and pandas' type of each column that it selects.
-        """
-        return FramesOfRows(self, query, columns)
-
 
 @dataclass(frozen=True)
 class FramesOfRows:
@@ -85,6 +74,12 @@ class FramesOfRows:
 def joined(frames: Iterable[pd.DataFrame]) -> pd.DataFrame:
     """All of it as one table: for what is known to be small."""
     return pd.concat(frames, ignore_index=True)
+
+
+def plain_rows(table: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
+    """The rows of a table as :meth:`RowsOnDisk.add` takes them; what is missing is None."""
+    values = table.astype(object)
+    return values.where(table.notna(), None).itertuples(index=False, name=None)
 
 
 def quoted(name: str) -> str:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.files.rows_on_disk import REPORT_ROWS, joined
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.retraining import ModelRegistry
 from tire_pipeline.retraining.drift import DRIFT, PSI_LIMIT, RISK
+from tire_pipeline.retraining.ingest import READ
 from tire_pipeline.retraining.release import history_rows
 
 _MOST_SHOWN = 20
@@ -31,18 +34,19 @@ _HAPPENED = {
 
 
 def build_retraining_report(
-    files: pd.DataFrame,
+    files: Iterable[pd.DataFrame],
     drift: pd.DataFrame,
     comparison: pd.DataFrame,
     outcome: dict[str, Any],
     registry: ModelRegistry,
 ) -> str:
     """One page: what came, what drifted, how the candidate did, what was decided."""
+    counts, unread = _counted(files)
     parts = [
-        _decision(files, outcome, registry),
+        _decision(counts, outcome, registry),
         _comparison(comparison),
         *_drift(drift),
-        _unread(files),
+        _unread(counts, unread),
         _history(registry),
     ]
     return render_page("Retraining", parts, pages=HOME)
@@ -57,13 +61,25 @@ def _comparison(comparison: pd.DataFrame) -> Table:
     )
 
 
-def _unread(files: pd.DataFrame) -> Table:
+def _counted(files: Iterable[pd.DataFrame]) -> tuple[dict[str, int], pd.DataFrame]:
+    """How many files have each status, by its name; the first of those that were not read."""
+    counts, some, left = Counter[str](), list[pd.DataFrame](), REPORT_ROWS
+    for frame in files:
+        counts.update(frame["status"])
+        some.append(frame[frame["status"] != READ].head(left))
+        left -= len(some[-1])
+    return dict(sorted(counts.items())), joined(some)
+
+
+def _unread(counts: Mapping[str, int], unread: pd.DataFrame) -> Table:
+    more = sum(counts.values()) - counts.get(READ, 0) - len(unread)
     return Table(
-        _without_paths(files[files["status"] != "read"]),
+        _without_paths(unread),
         heading="Files that were not read",
         caption="Pending: it cannot be read, and is tried again when its content changes. Set aside: "
         "it is no regular file. Taken already: the same file was read under another name. Removed: "
-        "it is gone from the folder.",
+        "it is gone from the folder."
+        + (f" {more:,} more are in tables/retraining_files.csv." if more else ""),
     )
 
 
@@ -92,8 +108,7 @@ def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     return table
 
 
-def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegistry) -> Text:
-    counts = files.groupby("status").size().to_dict()
+def _decision(counts: Mapping[str, int], outcome: dict[str, Any], registry: ModelRegistry) -> Text:
     came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
     return Text(
         [

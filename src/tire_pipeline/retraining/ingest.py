@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.errors import cause_in_entry, may_pass
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import Objects, UnreachableError
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, joined
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.partition import Partition
@@ -24,11 +25,14 @@ from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 from tire_pipeline.tire_table.in_pieces import PIECE_ROWS, Scratch
 
-INGEST_COLUMNS = ["file", "category", "status", "reason"]
+INGEST_TYPES = dict.fromkeys(("file", "category", "status", "reason"), "str")
+"""Columns of the report of what is new or not read, and their types."""
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
 ASIDE, AGAIN = "set aside", "taken already"
 STORED_EVERY_SECONDS = 60.0
 """What is read is stored so often while more is read."""
+Row = tuple[str, str, str, str]
+"""Of the report, by ``INGEST_TYPES``."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +63,8 @@ def ingest(
     work: Map = in_turn,
 ) -> tuple[Store, pd.DataFrame]:
     """Read what is new as :func:`ingest_in_steps` does, in one step."""
-    *_, last = ingest_in_steps(store, folder, found, read, work, step_seconds=math.inf)
-    return last
+    *_, (now, report) = ingest_in_steps(store, folder, found, read, work, step_seconds=math.inf)
+    return now, joined(report)
 
 
 def ingest_in_steps(
@@ -72,7 +76,7 @@ def ingest_in_steps(
     *,
     step_seconds: float = STORED_EVERY_SECONDS,
     monotonic: Callable[[], float] = time.monotonic,
-) -> Iterator[tuple[Store, pd.DataFrame]]:
+) -> Iterator[tuple[Store, FramesOfRows]]:
     """Read what is new, drop what is gone, keep all the rest as it is.
 
     A file that cannot be read is pending: an earlier reading of it stays in the table. It is tried again when
@@ -99,9 +103,10 @@ def ingest_in_steps(
     Store
         What is read so far, with the next sequence number if the table changed. A run that is killed after it
         was stored repeats nothing of it. Each has the revision that storing the one before it gives.
-    report : DataFrame
-        ``file, category, status, reason``: one row a file that is new, changed, removed, growing or still
-        pending, and one an entry of the folder that is set aside or leads to what is taken already.
+    report : iterable of DataFrame
+        ``file, category, status, reason``: one row a file that is new, changed, removed or growing, and one
+        an entry of the folder that is set aside or leads to what is taken already; in the last step also one
+        a file that is still pending. Read from the disk some thousand rows at a time.
 
     Raises
     ------
@@ -113,10 +118,7 @@ def ingest_in_steps(
     files = {name: entry for name, entry in store.manifest.files.items() if name not in removed}
     for name, look in found.touched.items():
         files[name] = replace(files[name], **asdict(look))
-    rows = [_row(name, REMOVED, "") for name in found.removed]
-    rows += [_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing]
-    rows += [_row(name, ASIDE, reason) for name, reason in found.aside.items()]
-    rows += [_row(name, AGAIN, f"a link to {other}") for name, other in found.again.items()]
+    rows = _not_read(found)
     wanted = {**found.added, **found.changed}
     gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
     scratch, place = Scratch(), place_at(folder, read)
@@ -124,10 +126,10 @@ def ingest_in_steps(
     partition = before.with_rows(from_models([]), gone, scratch)
     said, next_step = dict(store.manifest.files), monotonic() + step_seconds
 
-    def taken_up() -> tuple[Store, pd.DataFrame]:
+    def taken_up() -> tuple[Store, FramesOfRows]:
         sequence = store.manifest.sequence if partition is before else number
         now = replace(store.manifest, sequence=sequence, files=dict(files), revision=revision)
-        return Store(now, store.partition if partition is before else partition), _report(rows, files)
+        return Store(now, store.partition if partition is before else partition), _report(rows)
 
     revision = store.manifest.revision
     for some in _together(wanted, partition):
@@ -138,14 +140,33 @@ def ingest_in_steps(
             next_step = monotonic() + max(step_seconds, 10.0 * (monotonic() - began))
         new = _read(place, {name: wanted[name] for name in some}, files, rows, number, work)
         partition = partition.with_rows(new, (), scratch)
+    _add_pending(rows, files)
     yield taken_up()
 
 
-def _report(rows: list[dict[str, str]], files: Mapping[str, ManifestEntry]) -> pd.DataFrame:
-    reported = {row["file"] for row in rows}
-    pending = [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
-    table = pd.DataFrame([*rows, *pending], columns=INGEST_COLUMNS, dtype="str")
-    return table.sort_values("file", ignore_index=True)
+def _not_read(found: FolderDifference) -> RowsOnDisk:
+    """The report of what needs no reading."""
+    rows = RowsOnDisk(INGEST_TYPES)
+    rows.add(_row(name, REMOVED, "") for name in found.removed)
+    rows.add(_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing)
+    rows.add(_row(name, ASIDE, reason) for name, reason in found.aside.items())
+    rows.add(_row(name, AGAIN, f"a link to {other}") for name, other in found.again.items())
+    return rows
+
+
+def _add_pending(rows: RowsOnDisk, files: Mapping[str, ManifestEntry]) -> None:
+    """Add the files that could not be read earlier and are as they were."""
+    rows.do("create index by_file on rows (file)")
+    for name, entry in files.items():
+        if entry.pending and not rows.do("select 1 from rows where file = ?", (name,)).fetchone():
+            rows.add([_row(name, PENDING, entry.reason)])
+
+
+def _report(rows: RowsOnDisk) -> FramesOfRows:
+    """What is reported so far: rows that are added later are not among it."""
+    (last,) = rows.do("select coalesce(max(rowid), 0) from rows").fetchone()
+    query = f"select * from rows where rowid <= {last} order by file, rowid"
+    return FramesOfRows(rows, query, INGEST_TYPES)
 
 
 def _together(names: Collection[str], partition: Partition) -> Iterator[list[str]]:
@@ -159,7 +180,7 @@ def _read(
     place: Place,
     wanted: Mapping[str, tuple[Look, str]],
     files: dict[str, ManifestEntry],
-    rows: list[dict[str, str]],
+    rows: RowsOnDisk,
     number: int,
     work: Map,
 ) -> pd.DataFrame:
@@ -173,16 +194,16 @@ def _read(
             if isinstance(done.error, UnreachableError):
                 raise done.error
             if done.error is None and not done.value:
-                rows.append(_row(done.name, GROWING, "changed while it was read; left for the next run"))
+                rows.add([_row(done.name, GROWING, "changed while it was read; left for the next run")])
                 continue
             files[done.name], row = _outcome(done, *wanted[done.name], files.get(done.name), number)
-            rows.append(row)
+            rows.add([row])
     return join_tables(tables)
 
 
 def _outcome(
     done: Done[bool], look: Look, digest: str, before: ManifestEntry | None, number: int
-) -> tuple[ManifestEntry, dict[str, str]]:
+) -> tuple[ManifestEntry, Row]:
     """What the manifest says of a file after it was read, and its row of the report."""
     name = done.name
     if done.error is not None and may_pass(done.error) and not digest.startswith(UNREADABLE):
@@ -197,5 +218,5 @@ def _outcome(
     return ManifestEntry.of(look, digest, known, since, reason), _row(name, PENDING, f"{reason}{stays}")
 
 
-def _row(name: str, status: str, reason: str) -> dict[str, str]:
-    return {"file": name, "category": category_of(name), "status": status, "reason": reason}
+def _row(name: str, status: str, reason: str) -> Row:
+    return name, category_of(name), status, reason

@@ -16,6 +16,7 @@ from pydantic import Field
 from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.files.objects import Objects
+from tire_pipeline.files.rows_on_disk import FramesOfRows
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, unfitted
 from tire_pipeline.retraining import (
@@ -75,7 +76,7 @@ class RetrainParameters(Parameters):
 
 def read_new_files(
     ingested: Store, tir_folder: Path | Objects, parameters: RetrainParameters, *, work: Map = in_turn
-) -> Iterator[tuple[Store, pd.DataFrame]]:
+) -> Iterator[tuple[Store, FramesOfRows]]:
     """Read new and changed files, and none of the others.
 
     Parameters
@@ -91,7 +92,7 @@ def read_new_files(
     ------
     store : Store
         Stored at once, whatever happens later in the run: while many files are read, every minute.
-    report : DataFrame
+    report : iterable of DataFrame
         ``file, category, status, reason`` of all files that are not simply as before.
     """
     found = settled_difference(
@@ -106,7 +107,7 @@ def read_new_files(
     yield from ingest_in_steps(ingested, tir_folder, found, work=work)
 
 
-def report_on_files(files_taken_up: pd.DataFrame) -> pd.DataFrame:
+def report_on_files(files_taken_up: FramesOfRows) -> FramesOfRows:
     """Store the report once all files are read: a table with versions is stored once a run."""
     return files_taken_up
 

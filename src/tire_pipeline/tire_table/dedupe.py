@@ -157,7 +157,7 @@ def _mark(rows: RowsOnDisk, why: str, detail: str, where: str, *values: str) -> 
 
 def _report(marked: RowsOnDisk) -> FramesOfRows:
     query = f"select {', '.join(_REPORT_TYPES)} from rows where not {_STAYS} order by place"
-    return marked.table(query, _REPORT_TYPES)
+    return FramesOfRows(marked, query, _REPORT_TYPES)
 
 
 def _mark_identical(rows: RowsOnDisk) -> None:

@@ -96,7 +96,7 @@ def join_files(
     for file, reason in rows.do(f"{_SELECT_ASIDE} order by file limit {NAMED_IN_LOG}"):
         _LOG.warning("%s is set aside: %s", file, reason)
     _refuse_mostly_unread(rows, parameters)
-    report = rows.table("select * from rows order by file", REPORT_COLUMNS)
+    report = FramesOfRows(rows, "select * from rows order by file", REPORT_COLUMNS)
     return TableInPieces(tuple(pieces)), report, _summary(rows)
 
 

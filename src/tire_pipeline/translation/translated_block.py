@@ -168,7 +168,7 @@ class TranslateBlock:
         sources = Sources.read(self.files, self.given)
         kept = PassingTranslatedPart if sources.passing else TranslatedPart
         if not sources.models:
-            return _packed({}, {}, sources.unreadable, {}, kept)
+            return packed_part({}, {}, sources.unreadable, {}, kept)
         result = self.given.translator.translation(sources.table, farthest=self.given.farthest)
         result = _named_suppliers(result, sources.table)
         files = list(sources.own["file"])
@@ -183,7 +183,9 @@ class TranslateBlock:
             "coefficients": result.coefficients,
             "bands": _bands(result, files),
         }
-        return _packed(tables, file_curves(files, sources.models, result), sources.unreadable, texts, kept)
+        return packed_part(
+            tables, file_curves(files, sources.models, result), sources.unreadable, texts, kept
+        )
 
     def split(self) -> dict[str, TranslateBlock]:
         """One file each: to find the one that ends its process."""
@@ -193,7 +195,7 @@ class TranslateBlock:
         """What the blocks of :meth:`split` gave, as if this one had been done."""
         kept = PassingTranslatedPart if any(getattr(p, "passing", False) for p in parts) else TranslatedPart
         read = [part for part in parts if has_tables(part)]
-        return _packed(
+        return packed_part(
             {
                 name: pd.concat([table_in(p, name) for p in read], ignore_index=True)
                 for name in TABLES
@@ -208,7 +210,7 @@ class TranslateBlock:
     def lost(self, reason: str) -> TranslatedPart:
         """What a block of one file gives that ends its process; the next run may have more memory."""
         rows = [unreadable_row(file, self.given.suppliers, reason) for file in self.files]
-        return _packed({}, {}, rows, {}, PassingTranslatedPart)
+        return packed_part({}, {}, rows, {}, PassingTranslatedPart)
 
 
 @dataclass(frozen=True)
@@ -229,13 +231,14 @@ def has_tables(part: bytes) -> bool:
     return bool(json.loads(member(part, "read.json")))
 
 
-def _packed(
+def packed_part(
     tables: Mapping[str, pd.DataFrame],
     curves: dict[str, Any],
     unreadable: list[dict[str, str]],
     texts: Mapping[str, bytes],
     kept: type[TranslatedPart],
 ) -> TranslatedPart:
+    """The bytes of a part: ``TABLES``, curves, rows of files that cannot be read, and translated files."""
     content = {
         "unreadable.json": json.dumps(unreadable).encode(),
         "read.json": json.dumps(bool(tables)).encode(),

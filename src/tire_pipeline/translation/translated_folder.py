@@ -16,6 +16,7 @@ from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added_files import AddedFiles
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, plain_rows
 from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
@@ -41,6 +42,25 @@ Parts = Mapping[str, Callable[[], bytes]]
 _LOG = logging.getLogger(__name__)
 TRANSLATED_TOGETHER = 500
 """So many files are translated together, two seconds' work."""
+TRANSLATION_TYPES = {
+    "file": "str",
+    "supplier_known": "str",
+    "source": "str",
+    "source_probability": "float64",
+    "target": "str",
+    "verdict": "str",
+    "reason": "str",
+    "distance": "float64",
+    "expected_rms_ratio": "float64",
+    "harm_probability": "float64",
+    "bias_band": "str",
+    "taught": "Int64",
+    "protocol": "str",
+    "changes": "str",
+}
+"""Columns of the report of all files, and their types: :class:`.result.TranslationResult`."""
+_IN_ORDER = "from rows order by unreadable, file"
+_REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"
 
 
 def translate_each(
@@ -121,7 +141,7 @@ def join_translated(
     parts: Parts, translator: dict[str, Any], parameters: TranslateParameters
 ) -> tuple[
     dict[str, Callable[[], bytes] | None],
-    pd.DataFrame,
+    FramesOfRows,
     list[Callable[[], pd.DataFrame]],
     list[Callable[[], pd.DataFrame]],
     list[Callable[[], pd.DataFrame]],
@@ -129,7 +149,7 @@ def join_translated(
 ]:
     """Join what was translated: files, report and tables.
 
-    Of all files only the rows of the report are in memory.
+    Of all files only the names of the translated ones are in memory.
 
     Parameters
     ----------
@@ -145,9 +165,10 @@ def join_translated(
     files : dict
         The translated ``.tir`` files, no others, by the function that reads each. If not all files were asked
         for they are :class:`.AddedFiles`, with None for each of those asked for that was not translated.
-    report : DataFrame
+    report : iterable of DataFrame
         One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
-        the unchanged file, band of the bias, and that in words with what it usually comes from.
+        the unchanged file, band of the bias, and that in words with what it usually comes from. Sorted, files
+        that could not be read last; read from the disk some thousand rows at a time.
     sources, coefficients, bands : list of callable
         By parts, a function each: the files as a tire table at one nominal load, with suppliers; one row a
         coefficient that moved; ``file, output, normal_load, slip, middle, low, high``: curves of the
@@ -161,39 +182,39 @@ def join_translated(
         If not one file could be read.
     """
     files, last = dict[str, Callable[[], bytes] | None](), _LastTexts()
-    reports, unreadable = list[pd.DataFrame](), list[dict[str, str]]()
-    read = list[Callable[[], bytes]]()
+    rows, read = RowsOnDisk([*TRANSLATION_TYPES, "unreadable"]), list[Callable[[], bytes]]()
     for load in track(parts.values(), "joining what was translated", total=len(parts)):
         part = load()
-        unreadable += unreadable_in(part)
+        rows.add((*map(row.get, TRANSLATION_TYPES), True) for row in unreadable_in(part))
         if has_tables(part):
             read.append(load)
-            reports.append(table_in(part, "report"))
+            rows.add((*row, False) for row in plain_rows(table_in(part, "report")[[*TRANSLATION_TYPES]]))
             files |= {file: partial(last.text, load, file) for file in translated_in(part)}
-    report = _joined_report(reports, unreadable)
+    _tell_unreadable(rows, any_read=bool(read))
     if parameters.restricted:
-        files = AddedFiles(dict.fromkeys(report["file"]) | files)
+        names = (name for (name,) in rows.do(f"select file {_IN_ORDER}"))
+        files = AddedFiles(dict.fromkeys(names) | files)
     protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
     )
+    report = FramesOfRows(rows, _REPORT_QUERY, TRANSLATION_TYPES)
     return files, report, sources, coefficients, bands, protocols
 
 
-def _joined_report(reports: list[pd.DataFrame], unreadable: list[dict[str, str]]) -> pd.DataFrame:
-    """One row a file, those that could not be read last; an error if there are no others."""
-    aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier_known", "verdict", "reason"])
-    aside = aside.sort_values("file", ignore_index=True)
-    for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
+def _tell_unreadable(rows: RowsOnDisk, *, any_read: bool) -> None:
+    """Name those that could not be read in the log; an error if there are no others."""
+    aside = "from rows where unreadable"
+    first = rows.do(f"select file, reason {aside} order by file limit {NAMED_IN_LOG}").fetchall()
+    for file, reason in first:
         _LOG.warning("%s is refused: %s", file, reason)
-    if not reports:
+    if not any_read:
+        (count,) = rows.do(f"select count(*) {aside}").fetchone()
         raise DomainError(
-            f"none of {len(aside)} files could be read; the first: {aside['reason'].iloc[0]}",
+            f"none of {count} files could be read; the first: {first[0][1]}",
             where="translate",
             todo="correct them, then run again",
         )
-    report = pd.concat(reports, ignore_index=True).sort_values("file", ignore_index=True)
-    return pd.concat([report, aside], ignore_index=True) if len(aside) else report
 
 
 def _table_of(load: Callable[[], bytes], name: str) -> Callable[[], pd.DataFrame]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +11,8 @@ import pandas as pd
 import pytest
 from retraining_files import put, tir_text
 
-from tire_pipeline.retraining import Manifest, Store, difference, ingest
+from tire_pipeline.errors import DomainError
+from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest, manifest
 from tire_pipeline.tir import read_tir
 
 
@@ -114,3 +117,32 @@ def test_the_manifest_says_what_came_since(tmp_path):
     assert store.manifest.read_after(before) == ["A/2.tir"]
     copy, _ = Manifest.from_json(store.manifest.to_json())
     assert copy == store.manifest
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 5, 6])
+def test_a_manifest_is_written_and_read_in_pieces(monkeypatch, count):
+    """It is what it was when all of it was one value: stored ones stay readable, and equal ones equal."""
+    monkeypatch.setattr(manifest, "ENTRIES_TOGETHER", 2)
+    names = ['A/"files":{}.tir', 'B/,"files":{".tir', "C/\u00fc\U0001f600.tir", "a}}", "D/1", "\\x0a,", "E:["]
+    entries = {
+        n: ManifestEntry(f"{i}", "0" * (i % 2), i, 2**62, -i, i, "why, {") for i, n in enumerate(names)
+    }
+    known = Manifest(3, dict(list(entries.items())[:count]), revision=4)
+    table = {"count": 2, "parts": {"0": ["part", ["PCY1"]]}}
+    content = known.to_json(table=table)
+    numbers = {"format": 1, "sequence": 3, "revision": 4, "table": table}
+    whole = {**numbers, "files": {name: astuple(known.files[name]) for name in sorted(known.files)}}
+    assert content == json.dumps(whole, separators=(",", ":")).encode()
+    for stored in (content, json.dumps(whole, indent=1).encode()):
+        assert Manifest.from_json(stored) == (known, {"table": table})
+    assert Manifest.without_files(content) == Manifest(3, {}, revision=4)
+    assert known.is_in(content)
+    others = [
+        replace(known, sequence=2),
+        replace(known, revision=5),
+        Manifest(3, entries | {"z": entries["D/1"]}, 4),
+    ]
+    assert not any(other.is_in(content) for other in others)
+    for end in range(1, len(content)):
+        with pytest.raises(DomainError, match="damaged"):
+            Manifest.from_json(content[:-end])

@@ -18,6 +18,7 @@ from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import as_parquet
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.representations import make_representation
 from tire_pipeline.retraining import (
     Judged,
@@ -369,7 +370,8 @@ def test_steps_are_stored_one_after_the_other(dataset, tmp_path, monkeypatch):
         ingest_in_steps(Store(), folder, difference(folder, Manifest()), step_seconds=0.0, monotonic=float)
     )
     assert len(taken) >= 4
-    assert [len(store.manifest.files) for store, _ in taken] == sorted({len(report) for _, report in taken})
+    reported = [len(joined(report)) for _, report in taken]
+    assert [len(store.manifest.files) for store, _ in taken] == reported == sorted(set(reported))
     for store, _ in taken:
         assert set(store.table["file"]) == set(store.manifest.files)
         dataset.save(store)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tire_pipeline.reporting import retraining_page
 from tire_pipeline.reporting.retraining_page import build_retraining_report
 from tire_pipeline.retraining import ModelRegistry, Release, drift_of_features
 from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
@@ -77,7 +78,7 @@ def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
     drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
     comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
     page = build_retraining_report(
-        files,
+        [files],
         drift,
         comparison,
         {"event": "released", "reason": "it is the first one"},
@@ -87,7 +88,7 @@ def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
     assert "population stability index" not in page
     some = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
     page = build_retraining_report(
-        files, some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
+        [files], some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
     )
     assert "1 of 1 comparisons show drift" in page
 
@@ -106,12 +107,28 @@ def test_columns_are_in_words_and_what_is_left_out_is_counted():
     ).assign(p_adjusted=0.8, verdict=SAME)
     comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
     outcome = {"event": "refused", "reason": "worse"}
-    page = build_retraining_report(files, drift, comparison, outcome, ModelRegistry(Release()))
+    page = build_retraining_report([files], drift, comparison, outcome, ModelRegistry(Release()))
     assert not any(f">{name}<" in page.lower() for name in ("psi", "ks", "p_adjusted", "incoming"))
     assert "The 20 largest differences of 25." in page
     assert (">P24<" in page, ">P4<" in page) == (True, False)
     assert ">the file is empty<" in page
     assert "/data/tir" not in page
+
+
+def test_the_first_files_that_were_not_read_are_shown_and_the_others_counted(monkeypatch):
+    monkeypatch.setattr(retraining_page, "REPORT_ROWS", 3)
+    status = ["removed", "read", "pending", "read", "removed", "removed", "growing"]
+    files = pd.DataFrame({"file": [f"A/{k}.tir" for k in range(7)], "status": status, "reason": "why"})
+    drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
+    outcome = {"event": "released", "reason": "not worse"}
+    given = (drift, comparison, outcome, ModelRegistry(Release()))
+    page = build_retraining_report([files[:4], files[4:]], *given)
+    assert "Files since the last run: 1 growing, 1 pending, 2 read, 3 removed." in page
+    assert [f">A/{k}.tir<" in page for k in range(7)] == [True, False, True, False, True, False, False]
+    assert "2 more are in tables/retraining_files.csv" in page
+    monkeypatch.undo()
+    assert "tables/retraining_files.csv" not in build_retraining_report([files], *given)
 
 
 def test_the_page_is_read_in_a_browser(tmp_path):
@@ -124,7 +141,8 @@ def test_the_page_is_read_in_a_browser(tmp_path):
     outcome = {"event": "released", "reason": "not worse"}
     page = tmp_path / "retraining.html"
     page.write_text(
-        build_retraining_report(files, drift, comparison, outcome, ModelRegistry(Release())), encoding="utf-8"
+        build_retraining_report([files], drift, comparison, outcome, ModelRegistry(Release())),
+        encoding="utf-8",
     )
     with browser(tmp_path) as driver:
         text = read_page(driver, page)

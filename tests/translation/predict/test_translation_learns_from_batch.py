@@ -262,9 +262,9 @@ REFUSED_FILE = {"file": "E/a.tir", "source": "E", "verdict": "refused", "reason"
 def test_the_page_says_that_the_files_taught():
     parameters = TranslateParameters(learn_from_batch=True)
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
-        report = pd.DataFrame([{**REFUSED_FILE, "taught": taught}])
+        report = [pd.DataFrame([{**REFUSED_FILE, "taught": taught}])]
         page, _ = translate_page(report, {}, pd.DataFrame(), [], parameters, "D")
-        assert ("Among other files the result would differ a little" in page) is said
+        assert ("Among other files the result would differ a little" in str(page)) is said
 
 
 def test_a_translator_that_cannot_learn_from_the_batch_says_so():

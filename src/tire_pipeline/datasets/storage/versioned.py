@@ -53,5 +53,14 @@ class VersionedDataset(AbstractVersionedDataset[Kept, Kept], Generic[Kept]):
         folder, name = self._place(path)
         return files_at(folder), name
 
+    def _former(self, suffix: str) -> tuple[str, str] | None:
+        """Folder and name of the newest file that a former version of this project stored, if there is one.
+
+        Its name differs in the suffix only.
+        """
+        former = self._filepath.with_suffix(suffix)
+        found = max(map(str, self._glob_function(str(former / "*" / former.name))), default=None)
+        return None if found is None else self._place(former / found.split("/")[-2] / former.name)
+
     def _describe(self) -> dict[str, Any]:
         return {"filepath": self._filepath, "version": self._version}

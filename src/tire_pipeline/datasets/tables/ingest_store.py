@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,16 +23,6 @@ from tire_pipeline.tire_table.in_pieces import Piece
 
 _MANIFEST = "manifest.json"
 _TODO = "delete this folder: the next run reads all files again"
-
-
-@dataclass(frozen=True)
-class _Read:
-    """A manifest, what stands beside it, and the stamp of its file; nothing if there is none."""
-
-    manifest: Manifest = field(default_factory=Manifest)
-    partition: Partition = field(default_factory=Partition)
-    stamp: str | None = None
-    there: bool = False
 
 
 class IngestStoreDataset(AbstractDataset[Store, Store]):
@@ -62,8 +52,7 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
 
     def load(self) -> Store:
         """Manifest and table; both empty if nothing was stored yet."""
-        found = self._read()
-        return Store(found.manifest, found.partition)
+        return self._read()
 
     def manifest(self) -> Manifest:
         """The manifest alone."""
@@ -73,31 +62,43 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
         """Store both, or neither."""
         folder = files_at(self._path)
         with held(folder):
-            present = self._read()
-            refuse_other_revision(present.manifest.revision, data.manifest.revision, self._path)
-            if present.there and data.manifest == present.manifest:
+            content, stamp = self._stamped(folder)
+            present = Manifest() if content is None else Manifest.without_files(content, self._manifest_path)
+            refuse_other_revision(present.revision, data.manifest.revision, self._path)
+            if content is not None and data.manifest.is_in(content):
                 return
+            del content  # as large as all that is stored below
             parts = {n: _stored(folder, n, piece) for n, piece in sorted(data.partition.parts.items())}
-            new = replace(data.manifest, revision=present.manifest.revision + 1)
+            new = replace(data.manifest, revision=present.revision + 1)
             table = {"count": data.partition.count, "parts": parts}
-            replace_unless_changed(folder, _MANIFEST, new.to_json(table=table), present.stamp)
+            replace_unless_changed(folder, _MANIFEST, new.to_json(table=table), stamp)
             named = {part[0] for part in parts.values()}
             folder.delete(name for name in folder.names() if _is_part(name) and name not in named)
 
-    def _read(self) -> _Read:
-        folder, path = files_at(self._path), f"{self._path}/{_MANIFEST}"
+    @property
+    def _manifest_path(self) -> str:
+        return f"{self._path}/{_MANIFEST}"
+
+    def _stamped(self, folder: Files | Objects) -> tuple[bytes | None, str | None]:
+        """The manifest as it is stored, and the stamp of its file; None if there is none."""
         try:
-            content, stamp = folder.read_stamped(_MANIFEST)
+            return folder.read_stamped(_MANIFEST)
         except FileNotFoundError:
-            return _Read()
-        manifest, more = Manifest.from_json(content, where=path)
-        table = more.get("table")
+            return None, None
+
+    def _read(self) -> Store:
+        content, _ = self._stamped(files_at(self._path))
+        if content is None:
+            return Store()
+        manifest, more = Manifest.from_json(content, where=self._manifest_path)
         try:
-            return _Read(manifest, self._partition(table), stamp, there=True)
+            return Store(manifest, self._partition(more.get("table")))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             if isinstance(error, DomainError):
                 raise
-            raise DomainError("the manifest of files is damaged", where=path, todo=_TODO) from error
+            raise DomainError(
+                "the manifest of files is damaged", where=self._manifest_path, todo=_TODO
+            ) from error
 
     def _partition(self, table: Any) -> Partition:
         if "name" in table:  # of before there were parts: one file

@@ -86,7 +86,7 @@ class ReportPartsDataset(VersionedDataset[Frames]):
         try:
             place = self._place(self._get_load_path())
         except VersionNotFoundError:
-            former = self._former()
+            former = self._former(".csv")
             if former is None:
                 raise
             return StoredFrames(lambda: _of_csv(*former))
@@ -108,12 +108,6 @@ class ReportPartsDataset(VersionedDataset[Frames]):
         first = next(iter(self.load())).head(nrows).astype(object)
         shown = first.where(first.notna(), None)
         return readable(TablePreview(shown.to_dict(orient="split")))
-
-    def _former(self) -> tuple[str, str] | None:
-        """Folder and name of the newest CSV of a former version."""
-        former = self._filepath.with_suffix(".csv")
-        found = max(self._glob_function(str(former / "*" / former.name)), default=None)
-        return None if found is None else self._place(former / str(found).split("/")[-2] / former.name)
 
 
 def _of_csv(folder: str, name: str) -> Iterator[pd.DataFrame]:

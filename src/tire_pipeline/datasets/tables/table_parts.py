@@ -44,19 +44,15 @@ class TablePartsDataset(VersionedDataset[TableInPieces]):
         try:
             place = self._place(self._get_load_path())
         except VersionNotFoundError:
-            self._refuse_former()
+            if self._former(".parquet"):
+                raise DomainError(
+                    "a former version stored this table in another form",
+                    where=f"{self._address}{self._filepath.with_suffix('.parquet')}",
+                    todo="run `kedro run --pipeline ingest_tir` once: it reads the files again",
+                ) from None
             raise
         parts = parts_of(*place)
         return TableInPieces(tuple(Piece(part["rows"], tuple(part["numbers"]), load) for part, load in parts))
-
-    def _refuse_former(self) -> None:
-        former = self._filepath.with_suffix(".parquet")
-        if next(iter(self._glob_function(str(former / "*" / former.name))), None) is not None:
-            raise DomainError(
-                "a former version stored this table in another form",
-                where=f"{self._address}{former}",
-                todo="run `kedro run --pipeline ingest_tir` once: it reads the files again",
-            )
 
 
 def _numbers(frame: pd.DataFrame) -> dict[str, Any]:

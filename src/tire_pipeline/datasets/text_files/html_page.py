@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,8 @@ from tire_pipeline.files.atomic import replaced_file
 from tire_pipeline.files.objects import Objects, is_remote
 
 
-class HtmlPageDataset(AbstractDataset[str, str]):
-    """A self-contained HTML page.
+class HtmlPageDataset(AbstractDataset[str | Iterable[str], str]):
+    """A self-contained HTML page, saved as one text or in pieces that are written as they come.
 
     Parameters
     ----------
@@ -33,14 +35,18 @@ class HtmlPageDataset(AbstractDataset[str, str]):
             return folder.read(name).decode("utf-8")
         return Path(self._filepath).read_text(encoding="utf-8")
 
-    def save(self, data: str) -> None:
+    def save(self, data: str | Iterable[str]) -> None:
         """Replace the page in one step."""
+        pieces = [data] if isinstance(data, str) else data
         if is_remote(self._filepath):
             folder, name = _parted(self._filepath)
-            folder.write(name, data.encode("utf-8"))
+            with tempfile.TemporaryDirectory() as scratch:
+                written = Path(scratch, "page.html")
+                _write(written, pieces)
+                folder.write_file(name, written)
             return
         with replaced_file(self._filepath) as temporary:
-            temporary.write_text(data, encoding="utf-8")
+            _write(temporary, pieces)
 
     def _exists(self) -> bool:
         if is_remote(self._filepath):
@@ -50,6 +56,11 @@ class HtmlPageDataset(AbstractDataset[str, str]):
 
     def _describe(self) -> dict[str, Any]:
         return {"filepath": self._filepath}
+
+
+def _write(path: Path, pieces: Iterable[str]) -> None:
+    with path.open("w", encoding="utf-8") as stream:
+        stream.writelines(pieces)
 
 
 def _parted(address: str) -> tuple[Objects, str]:

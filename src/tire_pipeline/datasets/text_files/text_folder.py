@@ -16,6 +16,7 @@ from tire_pipeline.datasets.text_files.text_objects import (
     MARKER_HEAD,
     NEVER_DELETED,
     Content,
+    StoredTexts,
     as_bytes,
     parted,
 )
@@ -29,8 +30,8 @@ from tire_pipeline.progress import track
 _LONGEST_NAME = 255
 
 
-class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, bytes]]):
-    """Saves ``{relative path: text, or a function that gives it}`` as files; loads them back as bytes.
+class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], Mapping[str, bytes]]):
+    """Saves ``{relative path: text, or a function that gives it}`` as files; loads them one by one.
 
     The folder is replaced whole. With ``keep``, or if the texts are :class:`.AddedFiles`, what earlier runs
     made stays beside what is new; ``None`` instead of a text then takes the file of an earlier run away. A
@@ -56,13 +57,15 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, 
         self._keep = keep
         self.metadata = metadata
 
-    def load(self) -> dict[str, bytes]:
-        """Read every file; an absent folder is an empty dictionary."""
+    def load(self) -> Mapping[str, bytes]:
+        """Every file as bytes, read when it is asked for; an absent folder has none."""
         if is_remote(self._path):
             return text_objects.load(Objects(self._path), self._suffix, keep=self._keep)
         folder = Path(self._path)
         files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
-        return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
+        return StoredTexts(
+            {p.relative_to(folder).as_posix(): p.read_bytes for p in files if p.name != MARKER}
+        )
 
     @property
     def empty(self) -> bool:

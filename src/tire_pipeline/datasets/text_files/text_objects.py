@@ -7,7 +7,9 @@ changes, and by the new one after all else has: what a killed run leaves is neve
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
@@ -19,6 +21,30 @@ _WRITTEN_TOGETHER = 50
 NEVER_DELETED = (".gitkeep", "README.md")
 _BROKEN = "Being written. Nothing here counts until that is done. Of this project:"
 Content = str | bytes | Callable[[], bytes]
+
+
+@dataclass(frozen=True, eq=False)
+class StoredTexts(Mapping[str, bytes]):
+    """Texts by name, each read when it is asked for: they are never in memory together.
+
+    Attributes
+    ----------
+    read : mapping
+        Name -> the function that reads the text.
+    """
+
+    read: Mapping[str, Callable[[], bytes]]
+
+    def __getitem__(self, name: str) -> bytes:
+        """One text."""
+        return self.read[name]()
+
+    def __iter__(self) -> Iterator[str]:
+        """The names."""
+        return iter(self.read)
+
+    def __len__(self) -> int:
+        return len(self.read)
 
 
 def as_bytes(content: Content) -> bytes:
@@ -54,15 +80,15 @@ def made_there(folder: Objects) -> set[str]:
     return set(_marker(folder)[1])
 
 
-def load(folder: Objects, suffix: str, *, keep: bool = False) -> dict[str, bytes]:
-    """Every text with this ending; an absent folder is an empty dictionary.
+def load(folder: Objects, suffix: str, *, keep: bool = False) -> StoredTexts:
+    """Every text with this ending; an absent folder has none.
 
     With ``keep`` a text may be absent: the user removes those of earlier runs.
 
     Raises
     ------
     DomainError
-        The run that wrote them was killed, or one of them was changed since.
+        The run that wrote them was killed; or, when it is read, one of them was changed since.
     """
     broken, made = _marker(folder)
     if broken:
@@ -72,13 +98,16 @@ def load(folder: Objects, suffix: str, *, keep: bool = False) -> dict[str, bytes
             todo="run it again; what lies there is not used",
         )
     there = set(made) & set(folder.names()) if keep else set(made)
-    found = {name: folder.read(name) for name in sorted(there) if name.endswith(suffix)}
-    for name, content in found.items():
-        if made[name] and hashlib.sha256(content).hexdigest() != made[name]:
-            raise DomainError(
-                "this was changed since it was written", where=f"{folder}/{name}", todo="run again"
-            )
-    return found
+    names = (name for name in sorted(there) if name.endswith(suffix))
+    return StoredTexts({name: partial(_unchanged, folder, name, made[name]) for name in names})
+
+
+def _unchanged(folder: Objects, name: str, sha256: str) -> bytes:
+    """A text that is as it was written; of a kept one without a hash, whatever is there."""
+    content = folder.read(name)
+    if sha256 and hashlib.sha256(content).hexdigest() != sha256:
+        raise DomainError("this was changed since it was written", where=f"{folder}/{name}", todo="run again")
+    return content
 
 
 def save(folder: Objects, data: Mapping[str, Content], *, gone: set[str], keep: bool) -> None:

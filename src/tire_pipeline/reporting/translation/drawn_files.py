@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import islice
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.progress import track
 from tire_pipeline.reporting.embedded import packed_bytes, packed_json, quantised
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
@@ -18,18 +20,22 @@ CURVES_TOGETHER = 40
 """Files whose curves are compressed together, and opened together when one of them is clicked."""
 
 DIGITS = 5
+_NO_TIRES: Mapping[str, str] = {}
 _NO_CURVES: dict[str, Any] = {"scales": [None] * len(DRAWN_OUTPUTS), "stiffness": None, "moved": []}
 
 
 class DrawnFiles:
-    """Curves and moved coefficients of files, compressed: about 1 kB a file."""
+    """Curves, moved coefficients and tires of files, compressed, on the disk: about 1 kB a file."""
 
     def __init__(self) -> None:
         self.normal_load: list[float] = []
         self.slip: list[float] = []
-        self._files: dict[str, tuple[bytes, bytes]] = {}
+        self._rows = RowsOnDisk(("file", "tire", "forces", "numbers"))
+        self._rows.do("create index by_file on rows (file)")
 
-    def add(self, curves: Mapping[str, Any], coefficients: pd.DataFrame) -> None:
+    def add(
+        self, curves: Mapping[str, Any], coefficients: pd.DataFrame, tires: Mapping[str, str] = _NO_TIRES
+    ) -> None:
         """Add some files.
 
         Parameters
@@ -38,34 +44,60 @@ class DrawnFiles:
             From :func:`tire_pipeline.translation.curves.of_files.file_curves`.
         coefficients : DataFrame
             ``file, coefficient, from, to``.
+        tires : mapping of str to str
+            File -> its physical tire.
         """
         self.normal_load = [float(load) for load in curves["normal_load"]]
         self.slip = [round(float(slip), 6) for slip in curves["slip"]]
         by_file = dict(tuple(coefficients.groupby("file"))) if len(coefficients) else {}
-        for i, file in enumerate(map(str, curves["files"])):
-            forces, scales = _forces(curves, i)
-            moved = by_file.get(file)
-            numbers = {
-                "scales": scales,
-                "stiffness": _stiffness(curves, i),
-                "moved": _moved(moved) if moved is not None else [],
-            }
-            self._files[file] = zlib.compress(forces, 1), zlib.compress(json.dumps(numbers).encode(), 1)
+        self._rows.add(
+            (file, tires.get(file, ""), *_compressed(curves, i, by_file.get(file)))
+            for i, file in enumerate(map(str, curves["files"]))
+        )
 
-    def parts(self, files: Sequence[str]) -> list[list[str]]:
-        """Compressed curves, and numbers as JSON, of ``CURVES_TOGETHER`` files each, in their order."""
-        parts = []
-        for first in track(range(0, len(files), CURVES_TOGETHER), "drawing the translated files"):
+    def tire(self, file: str) -> str:
+        """The physical tire of a file; "" if nothing is drawn of it."""
+        found = self._rows.do("select tire from rows where file = ?", (file,)).fetchone()
+        return found[0] if found else ""
+
+    def parts(self, files: Iterable[str], count: int) -> Iterator[list[str]]:
+        """Compressed curves, and numbers as JSON, of ``CURVES_TOGETHER`` files each, in their order.
+
+        Parameters
+        ----------
+        files : iterable of str
+        count : int
+            How many they are.
+        """
+        some = _batched(iter(files), CURVES_TOGETHER)
+        for names in track(some, "drawing the translated files", total=-(-count // CURVES_TOGETHER)):
             forces, numbers = [], []
-            for file in files[first : first + CURVES_TOGETHER]:
-                if file in self._files:
-                    curves, rest = map(zlib.decompress, self._files[file])
+            for file in names:
+                found = self._rows.do("select forces, numbers from rows where file = ?", (file,)).fetchone()
+                if found:
+                    curves, rest = map(zlib.decompress, found)
                     forces.append(curves)
                     numbers.append(json.loads(rest))
                 else:
                     numbers.append(_NO_CURVES)
-            parts.append([packed_bytes(b"".join(forces)), packed_json(numbers)])
-        return parts
+            yield [packed_bytes(b"".join(forces)), packed_json(numbers)]
+
+
+def _batched(files: Iterator[str], size: int) -> Iterator[list[str]]:
+    """So many at a time (``itertools.batched`` of Python 3.12)."""
+    while some := list(islice(files, size)):
+        yield some
+
+
+def _compressed(curves: Mapping[str, Any], i: int, moved: pd.DataFrame | None) -> tuple[bytes, bytes]:
+    """Curves of the ``i``-th file, and the numbers beside them."""
+    forces, scales = _forces(curves, i)
+    numbers = {
+        "scales": scales,
+        "stiffness": _stiffness(curves, i),
+        "moved": _moved(moved) if moved is not None else [],
+    }
+    return zlib.compress(forces, 1), zlib.compress(json.dumps(numbers).encode(), 1)
 
 
 def _forces(curves: Mapping[str, Any], i: int) -> tuple[bytes, list[list[float | bool] | None]]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
+from tire_pipeline.files.rows_on_disk import RowsOnDisk
+from tire_pipeline.pages.page_in_pieces import PageInPieces
 from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Table
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
+from tire_pipeline.reporting.translation.translated_rows import listed, median_expected
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
 from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in
@@ -23,21 +26,22 @@ _PROTOCOLS = (
     "newest protocol counts."
 )
 _MOST_REASONS = 5
+_MOST_FIRST = "order by count(*) desc, min(rowid)"
 
 
 def translate_page(
-    report: pd.DataFrame,
+    report: Iterable[pd.DataFrame],
     parts: Mapping[str, Callable[[], bytes]],
     protocols: pd.DataFrame,
     demonstration_files: list[str],
     parameters: TranslateParameters,
     target: str,
-) -> tuple[str, list[str]]:
+) -> tuple[PageInPieces, list[str]]:
     """Draw every file on one page, and say how many were translated.
 
     Parameters
     ----------
-    report : DataFrame
+    report : iterable of DataFrame
     parts : mapping
         What was translated (:func:`.translation.translated_folder.translate_each`); read one after the other.
     protocols : DataFrame
@@ -48,60 +52,49 @@ def translate_page(
 
     Returns
     -------
-    page : str
+    page : PageInPieces
         HTML.
     outcome : list of str
         The last lines of a run.
     """
-    own = set(report["file"].astype(str)) - set(demonstration_files)
-    outcome = _outcome(report, own, target, parameters)
+    drawn = _drawn(parts)
+    rows = listed(report, frozenset(demonstration_files), drawn.tire)
+    outcome = _outcome(rows, target, parameters)
     tables = []
     if len(protocols):
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
         tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
-    drawn, tires = _drawn(parts)
-    page = translated_page(
-        f"Translated to {target}",
-        [*outcome, *_explained(report, parameters)],
-        report,
-        drawn,
-        own=own,
-        tires=tires,
-        tables=tables,
-    )
-    return page, outcome
+    lines = [*outcome, *_explained(rows, parameters)]
+    return translated_page(f"Translated to {target}", lines, rows, drawn, tables=tables), outcome
 
 
-def _drawn(parts: Mapping[str, Callable[[], bytes]]) -> tuple[DrawnFiles, dict[str, str]]:
+def _drawn(parts: Mapping[str, Callable[[], bytes]]) -> DrawnFiles:
     """What is drawn of every file, and the tire of each, read one part after the other."""
-    drawn, tires = DrawnFiles(), dict[str, str]()
+    drawn = DrawnFiles()
     for load in track(parts.values(), "reading what was translated", total=len(parts)):
         part = load()
         if has_tables(part):
-            drawn.add(curves_in(part), table_in(part, "coefficients"))
-            names = table_in(part, "sources")[["file", "tire_id"]]
-            tires |= dict(names.itertuples(index=False, name=None))
-    return drawn, tires
+            tires = table_in(part, "sources")[["file", "tire_id"]].itertuples(index=False, name=None)
+            drawn.add(curves_in(part), table_in(part, "coefficients"), dict(tires))
+    return drawn
 
 
-def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: TranslateParameters) -> list[str]:
+def _outcome(rows: RowsOnDisk, target: str, parameters: TranslateParameters) -> list[str]:
     asked = _asked_for(parameters)
     lines = []
-    mine = report["file"].isin(own)
-    for rows, whose in ((mine, "Your own"), (~mine, "The demonstration fleet's")):
-        if count := int(rows.sum()):
+    for own, whose in ((True, "Your own"), (False, "The demonstration fleet's")):
+        (count,) = rows.do("select count(*) from rows where own = ?", (own,)).fetchone()
+        if count:
             files = f"{count:,} {'file' if count == 1 else 'files'}{' asked for' if asked else ''}"
-            lines.append(f"{whose} {files}: {_counted(report[rows], target)}.")
+            lines.append(f"{whose} {files}: {_counted(rows, own, target)}.")
     if asked:
         lines.append(
             f"This run was restricted: {asked}. This page shows these files only. Other files that earlier "
             "runs translated stay in 07_model_output/translated until a run without the restriction."
         )
-    if why := _why_refused(report):
+    if why := _why_refused(rows):
         lines.append(f"Refused: {why}. The page gives the whole reason for each file.")
-    translated = report[report["verdict"] == TRANSLATED]
-    if len(translated):
-        middle = translated["expected_rms_ratio"].median()
+    if (middle := median_expected(rows)) is not None:
         lines.append(
             f"The RMS error of the translated files is expected to shrink to {middle:.0%} of the unchanged "
             "files' (median, the translator's own estimate; it has not been checked on these files)."
@@ -117,28 +110,33 @@ def _asked_for(parameters: TranslateParameters) -> str:
     return ", ".join(said)
 
 
-def _counted(report: pd.DataFrame, target: str) -> str:
-    targets = (report["source"] == target).to_numpy()
-    counts = report.loc[~targets, "verdict"].value_counts().to_dict()
+def _counted(rows: RowsOnDisk, own: bool, target: str) -> str:
+    each = "select verdict, count(*) from rows where own = ? and source <> ? group by verdict"
+    counts = dict(rows.do(f"{each} {_MOST_FIRST}", (own, target)).fetchall())
     first = [f"{counts.pop(TRANSLATED, 0):,} translated to {target}", f"{counts.pop(REFUSED, 0):,} refused"]
     if unknown := counts.pop(UNKNOWN, 0):
         first.append(f"{unknown:,} of an unknown supplier")
     others = [f"{count:,} {verdict}" for verdict, count in counts.items()]
-    if measured := int(targets.sum()):
+    of_target = "select count(*) from rows where own = ? and source = ?"
+    (measured,) = rows.do(of_target, (own, target)).fetchone()
+    if measured:
         others.append(f"{measured:,} measured by {target} itself")
     return ", ".join([*first, *others])
 
 
-def _why_refused(report: pd.DataFrame) -> str:
+def _why_refused(rows: RowsOnDisk) -> str:
     """The reasons without their details, the most frequent first, with how many files each holds for."""
-    reasons = report.loc[report["verdict"] == REFUSED, "reason"].astype(str)
-    counts = reasons.map(lambda reason: reason.partition(": ")[0]).value_counts()
-    shown = [f"{visible(str(why))} ({count:,})" for why, count in counts.iloc[:_MOST_REASONS].items()]
-    others = int(counts.iloc[_MOST_REASONS:].sum())
+    end = "instr(reason || ': ', ': ') - 1"
+    refused = f"from rows where verdict = '{REFUSED}'"
+    each = f"select substr(reason, 1, {end}) as why, count(*) {refused} group by why {_MOST_FIRST}"
+    counts = rows.do(f"{each} limit {_MOST_REASONS}").fetchall()
+    (others,) = rows.do(f"select count(*) {refused}").fetchone()
+    others -= sum(count for _, count in counts)
+    shown = [f"{visible(why)} ({count:,})" for why, count in counts]
     return "; ".join([*shown, *([f"other reasons ({others:,})"] if others else [])])
 
 
-def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[str]:
+def _explained(rows: RowsOnDisk, parameters: TranslateParameters) -> list[str]:
     reach = "distance 1, the edge of the training data"
     if parameters.farthest != EDGE:
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
@@ -163,7 +161,7 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
             f"{LEAST_TYPICALITY:.0%} of the category's own files lie as far from its mean. A laboratory that "
             "copies the rig, the ranges and the fits of a known one cannot be distinguished from it."
         )
-    if "taught" in report and report["taught"].max() > 0:
+    if rows.do("select max(taught) > 0 from rows").fetchone()[0]:
         lines.append(
             "The model also learned from the files to translate: each was translated with what the files of "
             "other tires say about their categories. Among other files the result would differ a little."

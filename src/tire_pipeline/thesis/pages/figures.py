@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import pandas as pd
@@ -44,8 +44,7 @@ def drawing(results: Results, name: str) -> Drawing | None:
     if name not in results.drawings:
         figure = {**CLASSIFIER_FIGURES, **AGENT_FIGURES}[name](results)
         results.drawings[name] = None if figure is None else Drawing.of(figure)
-    found: Drawing | None = results.drawings[name]
-    return found
+    return cast("Drawing | None", results.drawings[name])
 
 
 def dataset_figure(results: Results) -> MplFigure:
