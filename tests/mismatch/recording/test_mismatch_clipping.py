@@ -95,3 +95,25 @@ def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record):
         r = record(seed)
         low = 1.0 - 0.25 * np.clip((r["normal_load"] - 3000.0) / 3000.0, 0.0, None)
         assert _limits(tire, r.assign(fy=r["fy"] * low)) == []
+
+
+@pytest.mark.parametrize("limit", [500.0, 1500.0])
+def test_a_force_that_is_cut_for_most_of_its_time_is_clipped(tire, limit):
+    t = np.arange(0.0, 50.0, 0.1)
+    noise = 15.0 * np.random.default_rng(0).standard_normal(t.size)
+    force = 2000.0 + 2500.0 * np.sin(2.0 * np.pi * t / 12.5) + noise
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + t})
+    r["fy"] = np.minimum(force, limit)
+    (found,) = _limits(tire, r)
+    assert found.bad.mean() > 0.6
+    assert found.limits[1] == limit
+
+
+@pytest.mark.parametrize("rest", [0.0, 1500.0])
+def test_a_force_that_rests_while_nothing_moves_is_not_clipped(tire, rest):
+    """A log that stands for most of its time: the force is held there, and not at a limit."""
+    t = np.arange(0.0, 50.0, 0.1)
+    moves = np.maximum(t - 40.0, 0.0)
+    force = rest - 100.0 * moves
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + moves, "fy": force})
+    assert _limits(tire, r) == []

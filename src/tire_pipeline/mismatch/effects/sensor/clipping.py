@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import FORCE_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import CLIPPED
@@ -42,7 +43,7 @@ class Clipping(Effect):
                 continue
             x = channels[name]
             bad, limits = _points_at_a_limit(x) if "_steady_points" in channels else _at_the_ends(x)
-            if bad is None:
+            if bad is None or _held(name, bad, channels):
                 continue
             text = (
                 f"{name} stays exactly at {', '.join(f'{v:.5g}' for v in limits)} for "
@@ -73,7 +74,7 @@ def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
         at = x == value
         runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
         stays = runs.size and runs.max() >= 3 and not _crest(values, counts, value)
-        if at.sum() >= least and stays and at.mean() < _MOST_AT_A_LIMIT:
+        if at.sum() >= least and stays:
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])
@@ -81,9 +82,20 @@ def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
 
 _STEPS_OF_CREST = 10
 _BY_CHANCE = 1e-3
-_MOST_AT_A_LIMIT = 0.6
-"""A channel of which more stands at one value has no range to be clipped."""
+_MOST = 0.6
+"""Of the samples: a channel that stands at one value for longer is held there, unless it is a force."""
 _DECIMALS = range(-3, 12)
+
+
+def _held(name: str, at: Array, channels: Mapping[str, Array]) -> bool:
+    """Whether a channel stands at a value because it is held there, and not because it can't go beyond.
+
+    An input is held for most of a test. A force rests at zero, or as long as slip and load stand still.
+    """
+    if at.mean() < _MOST:
+        return False
+    moves = any(np.ptp(channels[n][at]) > 0.0 for n in SLIP_AND_LOAD if n in channels)
+    return name not in FORCE_CHANNELS or bool(np.all(channels[name][at] == 0.0)) or not moves
 
 
 def _points_at_a_limit(x: Array) -> tuple[Array | None, list[float]]:
@@ -100,11 +112,7 @@ def _points_at_a_limit(x: Array) -> tuple[Array | None, list[float]]:
         limit = float(np.max(y[finite]))
         at = finite & (y == limit)
         below = y[finite & ~at]
-        if (
-            below.size
-            and at.mean() < _MOST_AT_A_LIMIT
-            and _coincide(limit - below, x[finite & ~at], at.sum())
-        ):
+        if below.size and _coincide(limit - below, x[finite & ~at], at.sum()):
             return at, sorted({float(v) for v in x[at]}, reverse=True)
     return None, []
 
