@@ -19,9 +19,9 @@ _REASON = "known miss: a finding to look into (tests/known_misses.txt)"
 _HERE = Path(__file__).parent
 _CI_ONLY = _HERE / "ci_only.txt"
 _SLOW_FOLDERS = frozenset(
-    ("cluster", "concealed", "mismatch", "notebooks", "object_storage", "pipelines", "thesis", "viz")
+    "classifiers cluster concealed mismatch notebooks object_storage pipelines thesis viz".split()
 )
-"""Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
+"""Whole runs, browsers, simulators, explanations, trainings. Elsewhere the slow files say so themselves."""
 
 _SLOW_FILE = re.compile(r"^pytestmark = .*pytest\.mark\.slow\b", re.MULTILINE)
 

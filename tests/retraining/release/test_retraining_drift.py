@@ -114,6 +114,7 @@ def test_columns_are_in_words_and_what_is_left_out_is_counted():
     assert "/data/tir" not in page
 
 
+@pytest.mark.slow
 def test_the_page_is_read_in_a_browser(tmp_path):
     needs_browser()
     files = pd.DataFrame(
