@@ -221,16 +221,15 @@ def injected(which: str) -> Iterator[tuple[str, tuple[str, ...], MismatchReport]
     """Put each artefact into a real recording that has none, and explain it."""
     for what in ARTEFACTS:
         if which == "dart" or not ARTEFACTS[what][2]:
-            yield what, ARTEFACTS[what][1], with_artefact(which, what)
+            yield what, ARTEFACTS[what][1], explain_mismatch(*with_artefact(which, what))
 
 
-def with_artefact(which: str, what: str) -> MismatchReport:
-    """Explain the half that the model was not fitted to, with one artefact."""
+def with_artefact(which: str, what: str) -> tuple[TireModel, pd.DataFrame]:
+    """A model, and the half that it was not fitted to, with one artefact."""
     change = ARTEFACTS[what][0]
     if which == "dart":
-        other = joined(drives("rubber_floor_ramps")[1::2])
-        return explain_mismatch(dart_tire(0), change(other))
-    return explain_mismatch(tydex_tire(False, 0), change(tydex_part(False, 0, False)))
+        return dart_tire(0), change(joined(drives("rubber_floor_ramps")[1::2]))
+    return tydex_tire(False, 0), change(tydex_part(False, 0, False))
 
 
 def physics(report: MismatchReport) -> list[str]:

@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.slow
 HEAVY = ("torch", "stable_baselines3", "gymnasium", "kedro", "matplotlib", "sklearn")
 SLOW = (
     "scipy.stats",
@@ -44,7 +45,6 @@ def test_an_import_loads_nothing_that_is_not_needed_yet(statement):
     assert modules.isdisjoint((*HEAVY, *SLOW))
 
 
-@pytest.mark.slow
 def test_a_run_loads_what_trains_and_draws_only_in_the_nodes_that_need_it():
     modules = loaded(
         "from kedro.framework.project import configure_project, pipelines\n"
@@ -56,7 +56,6 @@ def test_a_run_loads_what_trains_and_draws_only_in_the_nodes_that_need_it():
     )
 
 
-@pytest.mark.slow
 def test_what_trains_a_network_leaves_the_compiler_of_torch_alone():
     """It takes two seconds to import, in each process that trains."""
     modules = loaded(

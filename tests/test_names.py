@@ -23,6 +23,7 @@ from tire_pipeline.channels import (
     TANGENTIAL_FORCES,
 )
 
+pytestmark = pytest.mark.slow
 ROOT = Path(tire_pipeline.__file__).parent
 
 SEALED = ("concealed.second.", "concealed.open_world.")

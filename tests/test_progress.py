@@ -182,6 +182,7 @@ if sys.argv[1] == "fork":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["exit", "fork"])
 def test_a_process_ends_well_with_work_left(how):
     for _ in range(5):
@@ -208,6 +209,7 @@ list(in_processes(2)(tasks, "tasks"))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tasks", "asks", "steps"), [(2, "", True), (5, "", False), (5, "task 1", True)])
 def test_processes_of_a_pool_show_steps_where_each_has_one_task_or_a_task_asks_for_it(tasks, asks, steps):
     command = [sys.executable, "-c", IN_PROCESSES, str(tasks), asks]

@@ -62,7 +62,7 @@ def test_every_listed_sweep_exists_and_is_never_sealed(recordings):
 @pytest.mark.parametrize(
     ("source", "count"),
     [
-        pytest.param(source, count, marks=pytest.mark.long if count == 12 or source == "calspan" else ())
+        pytest.param(source, count, marks=() if (source, count) == ("tydex", 4) else pytest.mark.long)
         for source, count in product(SOURCES, (4, 12))
     ],
 )

@@ -43,7 +43,7 @@ def relaxation_length(load: float) -> float:
     return float(np.sum(1.0 - (fy[100:] - fy[99]) / (fy[-1] - fy[99])) * 0.01 * 18.0)
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.ci) for seed in range(1, 6))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.long) for seed in range(1, 6))])
 def test_a_drawn_tire_is_a_passenger_cars(seed: int) -> None:
     tire = draw_tire(np.random.default_rng(seed))
     assert 500.0 < stiffness(tire, 4000.0) < 2500.0

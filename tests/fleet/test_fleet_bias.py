@@ -58,9 +58,7 @@ def test_with_bias_a_second_measurement_is_far_better() -> None:
     assert (summary.loc[METRICS, "improved"] > 0.85).all()
 
 
-@pytest.mark.parametrize(
-    "sizes", [(0.0, 0.5, 1.0), pytest.param((0.0, 0.3, 0.6, 1.0), marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("sizes", [(0.0, 1.0), pytest.param((0.0, 0.3, 0.6, 1.0), marks=pytest.mark.long)])
 def test_bias_grows_with_its_size(sizes: tuple[float, ...]) -> None:
     errors = [_floor("additive", s).per_file[[f"{m}_untranslated" for m in METRICS]].mean() for s in sizes]
     assert (pd.DataFrame(errors).diff().dropna() > 0).all(axis=None)

@@ -27,8 +27,9 @@ reading.interpret = dies
 """
 
 
-@pytest.mark.parametrize("pipeline", ["ingest_tir", "retrain"])
+@pytest.mark.parametrize("pipeline", ["ingest_tir", pytest.param("retrain", marks=pytest.mark.long)])
 def test_a_file_that_ends_its_process_stops_no_other(tmp_path, pipeline):
+    """A retraining is run in ``long``: ``test_cluster_map.py`` has what it does with processes."""
     (tmp_path / "sitecustomize.py").write_text(IN_EVERY_PROCESS)
     tir = tmp_path / "data" / "01_raw" / "tir"
     put_fleet(tir, range(10))

@@ -168,6 +168,7 @@ def test_missing_coefficient_is_named(table):
         make_representation("coefficients").fit(table.drop(columns="PKY1"))
 
 
+@pytest.mark.slow
 def test_import_needs_no_torch():
     code = (
         "import sys, tire_pipeline.representations as r;"

@@ -94,6 +94,7 @@ def test_changed_metadata_is_written():
     assert (again["INERTIA.MASS"], again["DIMENSION.WIDTH"]) == (9.5, 0.225)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(st.dictionaries(st.sampled_from(["PDY1", "PKY1", "PVY2", "LMUY", "QDZ1", "RBX1"]), coefficients))
 def test_hypothesis_read_write_read(changes: dict[str, float]):
@@ -103,6 +104,7 @@ def test_hypothesis_read_write_read(changes: dict[str, float]):
     assert tir_bytes(again) == tir_bytes(tire)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.data())
 def test_hypothesis_read_write_read_of_whole_files(data):
@@ -232,6 +234,7 @@ def test_hostile_comments(text: str, source: bool, tmp_path):
     assert all(set(line) & set("[]{}$") == set() and len(line) < 200 for line in added)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(st.text(max_size=300))
 def test_any_comment_and_any_text_value(text: str):

@@ -54,6 +54,7 @@ def model_of_row(row: pd.Series, like: TireModel) -> TireModel:
     return TireModel(like.version, values)
 
 
+@pytest.mark.slow
 @settings(max_examples=8, deadline=None)
 @given(load=st.floats(500, 60_000), seed=st.integers(0, 1000))
 def test_forces_stay(public, load: float, seed: int):

@@ -14,6 +14,7 @@ import click
 import numpy as np
 
 from tire_pipeline.files.atomic import write_bytes
+from tire_pipeline.files.json_values import json_value
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
 
@@ -86,7 +87,7 @@ def finish(outcome: CommandOutcome, name: str, *, page: Path | None, no_page: bo
         write_bytes(target, outcome.page().encode())
         written.append(str(target))
     if as_json:
-        click.echo(json.dumps(plain({**outcome.data, "written": written}), ensure_ascii=False, indent=1))
+        click.echo(json.dumps(json_value({**outcome.data, "written": written}), ensure_ascii=False, indent=1))
         return
     _print(outcome, written)
 
@@ -153,20 +154,3 @@ def percent(share: float) -> str:
     """
     value = 100.0 * share
     return f"{value:,.0f}%" if value >= 10.0 else f"{value:.2g}%"
-
-
-def plain(value: Any) -> Any:
-    """Return JSON types: no arrays, NaN and infinities as null."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(each) for key, each in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(each) for each in value]
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, Path):
-        return str(value)
-    return value

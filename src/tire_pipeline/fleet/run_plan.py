@@ -9,7 +9,7 @@ from tire_pipeline.fleet.manufacturer_fits.fit_sweeps import FitTask, fit_all
 from tire_pipeline.fleet.manufacturer_fits.habits import habit_of
 from tire_pipeline.fleet.plan import Plan
 from tire_pipeline.fleet.rig.regimes import Regime, regime_of
-from tire_pipeline.fleet.rig.sweeps import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
+from tire_pipeline.fleet.rig.sweeps import draw_sessions, measure_lateral, measure_longitudinal
 from tire_pipeline.fleet.settings import FleetSettings
 from tire_pipeline.fleet.tire_population import thermal_parameters
 from tire_pipeline.progress import track
@@ -78,18 +78,11 @@ def _task(
     back = np.searchsorted(raw.index.to_numpy(), first)
     tested = tires.loc[batch["tire"]]
     return FitTask(
-        lateral=_pick(measure_lateral(own, raw, regime, session, rng), back),
-        longitudinal=_pick(measure_longitudinal(own, raw, regime, session, rng), back),
+        lateral=measure_lateral(own, raw, regime, session, rng).of_tires(back),
+        longitudinal=measure_longitudinal(own, raw, regime, session, rng).of_tires(back),
         rated_load=tested["rated_load"].to_numpy(),
         radius=tested["UNLOADED_RADIUS"].to_numpy(),
         habit=habit_of(str(batch["category"].iloc[0])),
         freeze_draw=freeze.loc[batch["tire"]].to_numpy(),
         weight_twist=batch["weight_twist"].to_numpy(),
-    )
-
-
-def _pick(sweeps: Sweeps, rows: np.ndarray) -> Sweeps:
-    moment = None if sweeps.moment is None else sweeps.moment[rows]
-    return Sweeps(
-        sweeps.slip[rows], sweeps.normal_load[rows], sweeps.camber[rows], sweeps.force[rows], moment
     )

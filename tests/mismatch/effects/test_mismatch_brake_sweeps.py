@@ -16,7 +16,7 @@ def test_combined_slip_is_looked_for_in_brake_sweeps(braked, angles, missing):
     assert catalogue()["combined_slip"].absent(data) is None
 
 
-@pytest.mark.parametrize("factor", [0.8, pytest.param(1.25, marks=pytest.mark.ci)])
+@pytest.mark.parametrize("factor", [0.8, pytest.param(1.25, marks=pytest.mark.long)])
 def test_less_friction_by_the_files_own_factors_has_its_name_at_combined_slip(braked, factor):
     """Other programs change LMUX and LMUY, and keep the weights of combined slip: a stiffness was named."""
     file = weighted(braked)

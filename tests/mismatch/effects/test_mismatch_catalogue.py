@@ -27,7 +27,7 @@ def belt_lift():
     catalogue().pop("belt_lift")
 
 
-@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.ci)])
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_an_effect_from_outside_is_weighed_with_the_others(belt_lift, tire, seed):
     """And tells what it is alone: the lift is found to three of its errors in most draws (``rates``)."""
     answer = Explainer().weigh(tire, lifted_sweeps(tire, seed)).answer

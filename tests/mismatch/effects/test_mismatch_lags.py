@@ -60,7 +60,8 @@ def front_axle(path, rate):
 
 
 @pytest.mark.parametrize(
-    ("rate", "fitted"), [(None, "ramps"), (None, "drive"), pytest.param(20.0, "drive", marks=_LONG)]
+    ("rate", "fitted"),
+    [pytest.param(None, "ramps", marks=_LONG), (None, "drive"), pytest.param(20.0, "drive", marks=_LONG)],
 )
 def test_a_steering_actuator_that_lags_is_no_relaxation_of_the_tire(rate, fitted):
     """Its 0.13 s were a relaxation of 0.37 to 1.87 m on a wheel of 0.023 m, without an alternative."""

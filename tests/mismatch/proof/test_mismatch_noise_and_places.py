@@ -41,7 +41,7 @@ def test_noise_is_no_larger_than_what_is_left(folder, number):
     drive = axle(folder, number)
     assert "slip_angle_std" in drive
     tire = fit_magic_formula(axle("free_driving")[AXLE]).model
-    report = explain_mismatch(tire, drive)
+    report = explain_mismatch(tire, drive, **FEW)
     fit = report.fit["fy"]
     assert 0.0 < fit.noise_floor <= min(fit.rms_before, fit.rms_after)
     assert report.series["floor_fy"] <= fit.rms_after
@@ -51,7 +51,9 @@ def test_the_error_of_a_force_in_kilonewtons_is_in_newtons():
     """It fell to 7.6 N where the same recording in N leaves 58 N."""
     tire = read_tir(EXAMPLES / "tire.tir")
     run = read_recording(EXAMPLES / "rig_run.csv", axes="ISO").iloc[::4]
-    right, wrong = (explain_mismatch(tire, run.assign(fy=run["fy"] / unit)).fit["fy"] for unit in (1.0, 1e3))
+    right, wrong = (
+        explain_mismatch(tire, run.assign(fy=run["fy"] / unit), **FEW).fit["fy"] for unit in (1.0, 1e3)
+    )
     for name in ("noise_floor", "rms_after", "rms_after_low", "rms_after_high"):
         assert getattr(wrong, name) == pytest.approx(getattr(right, name), rel=1e-6)
 

@@ -34,7 +34,8 @@ TRUTH = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("hidden", "rate", "temperature"), [("camber and pressure", 50, False), ("camber", 20, True)]
+    ("hidden", "rate", "temperature"),
+    [("camber and pressure", 50, False), pytest.param("camber", 20, True, marks=pytest.mark.long)],
 )
 def test_what_is_hidden_is_named_and_other_loads_come_out_better(bench, hidden, rate, temperature):
     row = bench.judge(hidden, rate, temperature)
@@ -43,7 +44,7 @@ def test_what_is_hidden_is_named_and_other_loads_come_out_better(bench, hidden, 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rate", [100, pytest.param(20, marks=pytest.mark.long), 10])
+@pytest.mark.parametrize("rate", [*(pytest.param(rate, marks=pytest.mark.long) for rate in (100, 20)), 10])
 def test_nothing_hidden_gives_no_name(bench, rate):
     row = bench.judge("nothing", rate, True)
     assert (row.verdict, row.names) == ("agrees", ())
@@ -58,7 +59,7 @@ PUT_IN = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rate", [pytest.param(100, marks=pytest.mark.long), 50, 20])
+@pytest.mark.parametrize("rate", [*(pytest.param(rate, marks=pytest.mark.long) for rate in (100, 50)), 20])
 @pytest.mark.parametrize("what", PUT_IN)
 def test_rows_of_a_run_count_as_a_run_if_time_was_not_kept(bench, rate, what):
     table = bench.sweeps(rate)

@@ -42,8 +42,19 @@ def prepared(rate):
 # No search: what is repaired and cleaned before
 
 
-FEW_RATES = [*(pytest.param(rate, marks=pytest.mark.ci) for rate in RATES[:-1]), RATES[-1]]
-"""The highest in `make test`, all of them in CI."""
+def _tier(rate, in_ci):
+    """20 Hz in `make test`, some in CI, the others in `long`."""
+    if rate == 20:
+        return ()
+    return pytest.mark.ci if rate in in_ci else pytest.mark.long
+
+
+def _rates(*in_ci):
+    return [pytest.param(rate, marks=_tier(rate, in_ci)) for rate in RATES]
+
+
+FEW_RATES = _rates(2, 100, 500)
+"""The lowest, the recordings' own and the highest in CI."""
 
 
 @pytest.mark.parametrize("rate", FEW_RATES)
@@ -53,7 +64,7 @@ def test_real_channels_are_neither_stuck_nor_clipped_nor_turned(rate):
         assert [(f.name, f.channel) for f in as_it_is.findings] == []
 
 
-@pytest.mark.parametrize("rate", FEW_RATES)
+@pytest.mark.parametrize("rate", _rates(500))
 def test_real_channels_in_few_digits_are_neither_stuck_nor_clipped_nor_turned(rate):
     """At 500 Hz a speed in few digits was stuck for 645 samples."""
     for tire, given, _ in sources(rate):
@@ -88,16 +99,9 @@ WRONG = [
 ]
 
 
-def _tier(rate, wrong):
-    """Any of them at 20 Hz in `make test`; at 2 Hz, and pound-force at any rate, in CI."""
-    if rate == 20:
-        return ()
-    return pytest.mark.ci if rate == 2 or wrong is WRONG[2] else pytest.mark.long
-
-
 @pytest.mark.parametrize(
     ("rate", "channel", "factor"),
-    [pytest.param(rate, *wrong, marks=_tier(rate, wrong)) for rate in RATES for wrong in WRONG],
+    [pytest.param(rate, *wrong, marks=_tier(rate, (2,))) for rate in RATES for wrong in WRONG],
 )
 def test_a_repair_brings_sweeps_that_it_was_not_made_for_nearer(rate, channel, factor):
     """Or nothing is repaired: where friction changed by a half, pound-force and kilogram-force are alike."""

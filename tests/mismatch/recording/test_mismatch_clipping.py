@@ -6,7 +6,7 @@ import pytest
 
 from tire_pipeline.mismatch.recording.prepare import prepare
 
-DRAWS = [*range(3), *(pytest.param(seed, marks=pytest.mark.ci) for seed in range(3, 10))]
+DRAWS = [*range(3), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(3, 10))]
 
 
 def slow_sine(limit=np.inf, digits=5, noise=0.0):

@@ -131,6 +131,7 @@ def test_the_first_files_that_were_not_read_are_shown_and_the_others_counted(mon
     assert "tables/retraining_files.csv" not in build_retraining_report([files], *given)
 
 
+@pytest.mark.slow
 def test_the_page_is_read_in_a_browser(tmp_path):
     needs_browser()
     files = pd.DataFrame(

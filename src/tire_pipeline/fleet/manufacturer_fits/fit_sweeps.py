@@ -54,20 +54,9 @@ class FitTask:
 
     def chunk(self, rows: slice) -> FitTask:
         """Return some of the measurements."""
-
-        def cut(sweeps: Sweeps) -> Sweeps:
-            moment = None if sweeps.moment is None else sweeps.moment[rows]
-            return Sweeps(
-                sweeps.slip[rows],
-                sweeps.normal_load[rows],
-                sweeps.camber[rows],
-                sweeps.force[rows],
-                moment,
-            )
-
         return FitTask(
-            cut(self.lateral),
-            cut(self.longitudinal),
+            self.lateral.of_tires(rows),
+            self.longitudinal.of_tires(rows),
             self.rated_load[rows],
             self.radius[rows],
             self.habit,

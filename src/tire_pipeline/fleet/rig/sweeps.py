@@ -35,6 +35,11 @@ class Sweeps:
     force: np.ndarray
     moment: np.ndarray | None = None
 
+    def of_tires(self, rows: np.ndarray | slice) -> Sweeps:
+        """Return the points of some of the tires."""
+        moment = None if self.moment is None else self.moment[rows]
+        return Sweeps(self.slip[rows], self.normal_load[rows], self.camber[rows], self.force[rows], moment)
+
 
 @dataclass(frozen=True)
 class Session:

@@ -158,13 +158,13 @@ class EffectReport:
         list of (str, str, str, str)
             Name, value, interval, and what is uncertain about it.
         """
-        return [(n.replace("_", " "), *self._sizes(n), self._certainty(n)) for n in self.parameters]
+        return [(n.replace("_", " "), *self._sizes(n), self._not_determined(n)) for n in self.parameters]
 
     def _sizes(self, name: str) -> tuple[str, str]:
         value, error, unit = self.parameters[name]
         return amount_with_interval(value, error, self.intervals.get(name, (value, value)), unit)
 
-    def _certainty(self, name: str) -> str:
+    def _not_determined(self, name: str) -> str:
         if name in self.undetermined:
             return "not determined by this recording"
         low, high = self.intervals.get(name, (np.nan, np.nan))

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from tire_pipeline.files.json_values import json_value
 from tire_pipeline.mismatch.report.contents import ReportContents
 
 if TYPE_CHECKING:
@@ -152,7 +151,7 @@ class MismatchReport(ReportContents):
             "probabilities": [{"names": list(names), "probability": p} for names, p in self.probabilities],
             "corrected": [{"name": n, "parameters": dict(p)} for n, p in self.corrected.changes],
         }
-        return json.loads(json.dumps(_plain(raw)))
+        return json.loads(json.dumps(json_value(raw)))
 
     def to_json(self, path: str | Path) -> Path:
         """Write :meth:`to_dict` as a JSON file.
@@ -189,17 +188,3 @@ class MismatchReport(ReportContents):
         path = Path(path)
         path.write_text(render(self, pages=pages), encoding="utf-8")
         return path
-
-
-def _plain(x: Any) -> Any:
-    if isinstance(x, Mapping):
-        return {str(k): _plain(v) for k, v in x.items()}
-    if isinstance(x, (list, tuple)):
-        return [_plain(v) for v in x]
-    if isinstance(x, np.bool_):
-        return bool(x)
-    if isinstance(x, (float, np.floating)):
-        return float(x) if np.isfinite(x) else None
-    if isinstance(x, np.integer):
-        return int(x)
-    return x
