@@ -128,7 +128,8 @@ def test_shuffled_truth_leaves_every_translated_file_as_it_was(small_run, tmp_pa
     texts = [p.read_bytes() for p in truth]
     for path, text in zip(truth, texts[1:] + texts[:1], strict=True):
         path.write_bytes(text)
-    done = kedro_here(tmp_path, "--pipeline", "evaluate")
+    last = "evaluation.write_best,evaluation.judge"
+    done = kedro_here(tmp_path, "--pipeline", "evaluate", "--to-nodes", last)
     assert done.returncode == 0, done.stdout + done.stderr
     after = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
     assert after == before

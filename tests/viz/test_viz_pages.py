@@ -16,7 +16,8 @@ from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.command.cli import tire
 from tire_pipeline.concealed.scoring.words import outcome
-from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.mismatch import Explainer, explain_recordings
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.reporting import front_page
 from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview
@@ -45,7 +46,9 @@ def reports(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages") / "08_reporting"
     (folder / "mismatch" / "rig").mkdir(parents=True)
     run = read_recording(ROOT / "examples" / "rig_run.csv", axes="ISO").iloc[::2].drop(columns="speed")
-    report = explain_recordings(read_tir(ROOT / "examples" / "tire.tir"), {"rig/run.csv": run})
+    few = Explainer(without=set(catalogue()) - {"inflation_pressure", "friction_scale"})
+    tire_model = read_tir(ROOT / "examples" / "tire.tir")
+    report = explain_recordings(tire_model, {"rig/run.csv": run}, explainer=few)
     above = [("../../mismatch.html", "All recordings")]
     report.to_html(folder / "mismatch" / "rig" / "run.html", pages=above)
     row = {"recording": "rig/run.csv", "verdict": report.verdict, "summary": report.summary}
