@@ -97,7 +97,7 @@ def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record):
         assert _limits(tire, r.assign(fy=r["fy"] * low)) == []
 
 
-@pytest.mark.parametrize("limit", [500.0, 1500.0])
+@pytest.mark.parametrize("limit", [500.0, 1000.0])
 def test_a_force_that_is_cut_for_most_of_its_time_is_clipped(tire, limit):
     t = np.arange(0.0, 50.0, 0.1)
     noise = 15.0 * np.random.default_rng(0).standard_normal(t.size)

@@ -82,7 +82,7 @@ def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
 
 _STEPS_OF_CREST = 10
 _BY_CHANCE = 1e-3
-_MOST = 0.6
+_HELD_FROM = 0.6
 """Of the samples: a channel that stands at one value for longer is held there, unless it is a force."""
 _DECIMALS = range(-3, 12)
 
@@ -92,7 +92,7 @@ def _held(name: str, at: Array, channels: Mapping[str, Array]) -> bool:
 
     An input is held for most of a test. A force rests at zero, or as long as slip and load stand still.
     """
-    if at.mean() < _MOST:
+    if at.mean() < _HELD_FROM:
         return False
     moves = any(np.ptp(channels[n][at]) > 0.0 for n in SLIP_AND_LOAD if n in channels)
     return name not in FORCE_CHANNELS or bool(np.all(channels[name][at] == 0.0)) or not moves
