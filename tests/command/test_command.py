@@ -148,6 +148,18 @@ def test_compare_gives_the_difference_of_an_output_that_only_one_file_has(folder
     line = next(line for line in shown.splitlines() if line.startswith("Mz"))
     assert found["rms"] > 0.0
     assert float(line.split()[1].replace(",", "")) == pytest.approx(found["rms"], rel=1e-3)
+    assert "A has no Mz." in shown
+
+
+def test_compare_states_no_share_of_a_force_that_the_second_file_lacks(folder):
+    ahead = [name for name in COEFFICIENTS if name.startswith(("PCX", "PDX", "PEX", "PKX", "PHX", "PVX"))]
+    write_tir(TireModel.from_coefficients({n: v for n, v in COEFFICIENTS.items() if n not in ahead}), "b.tir")
+    shown = run("compare", "a.tir", "b.tir", "--no-page").stdout
+    assert "B has no Fx." in shown
+    assert "Fx 0%" not in shown
+    assert "-100" not in shown
+    slip_stiffness = next(line for line in shown.splitlines() if line.startswith("slip stiffness"))
+    assert slip_stiffness.split()[-2] == "–"
 
 
 def test_compare_warns_of_other_axes(folder):

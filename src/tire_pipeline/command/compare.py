@@ -117,6 +117,9 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
             f"{' and '.join(opposite)} of B {'has' if len(opposite) == 1 else 'have'} the other sign: "
             "the files are in different axes, and the differences say nothing about the tires."
         )
+    for letter, which in (("A", 0), ("B", 1)):
+        if lacks := [d.output.capitalize() for d in apart if d.lacking[which] and not all(d.lacking)]:
+            lines.append(f"{letter} has no {' and no '.join(lacks)}.")
     lines.append(f"{changed} coefficients differ.")
     lines += [
         f"{name} states no UNLOADED_RADIUS, so its moments and relaxation lengths cannot be computed. State "
@@ -129,7 +132,7 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 
 def _row(difference: Difference) -> tuple[Any, ...]:
     unit = "N m" if difference.output.startswith("m") else "N"
-    # The share is NaN where the first model has no such output: that is a difference, not rounding.
+    # The share is NaN where a model has no such output: that is a difference, not rounding.
     rounding = difference.share <= _ROUNDING_SHARE
     rms, largest = (0.0 if rounding else x for x in (difference.rms, difference.largest))
     return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
@@ -142,7 +145,7 @@ def _percent(share: float) -> str:
 
 
 def _change(before: float, after: float) -> str:
-    if not (math.isfinite(before) and math.isfinite(after)) or before == 0.0:
+    if not (math.isfinite(before) and math.isfinite(after)) or 0.0 in (before, after):
         return "–"
     change = after / before - 1.0
     return f"{100 * change:+.1f}%" if abs(change) > _ROUNDING_SHARE else "0%"

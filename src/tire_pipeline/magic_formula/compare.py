@@ -24,9 +24,11 @@ class Difference:
     rms, largest : float
         N or N m.
     share : float
-        RMS over the first model's largest magnitude; NaN if that is zero.
+        RMS over the first model's largest magnitude; NaN if either model has no such force.
     opposite : bool
         Whether the second model's curves have the other sign: it is in other axes.
+    lacking : tuple of bool
+        Whether the force is zero throughout in the first model, and in the second one.
     """
 
     output: str
@@ -34,6 +36,7 @@ class Difference:
     largest: float
     share: float
     opposite: bool
+    lacking: tuple[bool, bool]
 
 
 def compare_models(
@@ -92,11 +95,13 @@ def _difference(
     )
     apart = b - a
     size = float(np.max(np.abs(a)))
+    lacking = (not np.any(a), not np.any(b))
     rms = float(np.sqrt(np.mean(apart**2)))
     return Difference(
         output,
         rms,
         float(np.max(np.abs(apart))),
-        rms / size if size > 0.0 else float("nan"),
+        float("nan") if any(lacking) else rms / size,
         bool(np.sum(a * b) < 0.0),
+        lacking,
     )
