@@ -179,8 +179,8 @@ def in_short(simulated: pd.DataFrame, real: pd.DataFrame, runs: pd.DataFrame) ->
         f"real cases. It removes {together(REMOVED)} of the squared error that "
         "the true model removes, on average.",
         f"**Confidence**: how often a finding holds a true name differs from what it says by {mine[OFF]:.3f} "
-        "on average (last real run). Were each confidence exact, chance alone would show "
-        f"{mine[CHANCE]:.3f}.",
+        f"on average (last real run) and by {own['value'][OFF]:.3f} in simulated cases. Were each confidence "
+        f"exact, chance alone would show {mine[CHANCE]:.3f} and {own['value'][CHANCE]:.3f}.",
         f"**Goals** of the simulated half: {_met(simulated)}. Of the real half: {_met(real)}.",
     ]
     return "\n".join(f"- {line}" for line in lines)
