@@ -17,6 +17,7 @@ from tire_pipeline.mismatch.report.words import short_equation
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
+_HEIGHT_OF_A_BAR = 0.05
 _MARKED_POINTS = 600
 _STEPS_OF_GAP = 5.0
 """Usual steps without a sample after which a curve over time is broken."""
@@ -51,13 +52,15 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
         figure = Figure(figsize=(9.0, 2.9), layout="constrained") if figure is None else figure
         axes = figure.subplots()
         x = s["time"] if s["time"] is not None else np.arange(s[f"before_{output}"].size)
-        for number, effect in enumerate(e for e in report.effects if e.output == output):
+        barred = [e for e in report.effects if e.output == output and e.when]
+        for number, effect in enumerate(barred):
+            top = 1.0 - _HEIGHT_OF_A_BAR * number
             for k, (a, b) in enumerate(effect.when):
                 axes.axvspan(
                     a,
                     b,
-                    ymin=0.95 - 0.05 * number,
-                    ymax=1.0 - 0.05 * number,
+                    ymin=top - _HEIGHT_OF_A_BAR,
+                    ymax=top,
                     color=f"C{number + 2}",
                     lw=0,
                     label=effect.name.replace("_", " ") if k == 0 else None,
@@ -69,6 +72,8 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
         axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
         if report.corrected.changes:
             axes.plot(*_broken(x, s[f"after_{output}"]), color=_AFTER, label="after", **look)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, low + (high - low) / (1.0 - _HEIGHT_OF_A_BAR * len(barred)))  # bars hide no peak
         axes.set_xlabel("time (s)" if s["time"] is not None else "point")
         axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
         legend = axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)

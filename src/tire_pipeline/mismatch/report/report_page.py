@@ -131,7 +131,7 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
 
 def _certainty(effect: EffectReport) -> str:
     """The certainty of the name, and its share of the error."""
-    text = f"Probability {effect.confidence:.0%}"
+    text = f"Probability {'over 99%' if effect.confidence > 0.995 else f'{effect.confidence:.0%}'}"
     if effect.alternatives:
         text += " that it is this or one of its alternatives"
     if math.isfinite(effect.share):
