@@ -63,7 +63,7 @@ class Outputs:
 
     def __init__(self, folder: Path) -> None:
         self.data = folder / "data"
-        self.report = self._table("translation_report.json", _parts).set_index("file")
+        self.report = self._table("translation_report.json", _parts).set_index("file").replace("", np.nan)
         self.bands = self._table("translation_bands.json", _parts)
         self.coefficients = self._table("translation_coefficients.json", _parts)
         self.page = _Page((self.data / "08_reporting" / "translated_files.html").read_text("utf-8"))

@@ -129,7 +129,7 @@ def test_the_proof_says_too_few_cases_and_the_translators_page_begins_with_a_sen
     met, few = told.count("met"), told.count("too few cases")
     said = f"{met} of {met + told.count('missed') + few} goals are met; {few} {'has' if few == 1 else 'have'}"
     assert f"{said} too few cases" in text
-    assert "10 have too few cases to tell" in text
+    assert f"{sum(map(bool, told))} have too few cases to tell" in text  # one real case tells nothing
     assert "IoU" not in text
     assert driver.find_element("css selector", "svg").location["y"] < 400  # the picture comes first
     _click(driver, "All reports")
