@@ -144,7 +144,7 @@ def test_names_given_by_the_user(tmp_path):
     with pytest.raises(RecordingError, match="'Kanal_8', which the file does not have"):
         read_recording(file, names={"Kanal_8": "fy"})
     with pytest.raises(
-        RecordingError, match=r"'Kanal_7' is said to be 'pressur', .* did you mean 'pressure'\?"
+        RecordingError, match=r"'Kanal_7' is stated to be 'pressur', .* did you mean 'pressure'\?"
     ):
         read_recording(file, names={"Kanal_7": "pressur"})
     with pytest.raises(RecordingError, match="the file's name stands first and the channel second"):
