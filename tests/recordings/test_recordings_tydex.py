@@ -98,7 +98,7 @@ def test_all_axis_systems_give_the_same_forces(tmp_path, system):
     [
         ("**MEASURCHANNELS\nFZW  {x}\n", "without measurements"),
         ("**MEASURCHANNELS\n**MEASURDATA\n1 2\n", "MEASURCHANNELS is empty"),
-        ("**MEASURCHANNELS\n{c}\n**MEASURDATA\n1 x\n", "no number"),
+        ("**MEASURCHANNELS\n{c}\n**MEASURDATA\n1 x\n", "something other than numbers"),
         ("**MEASURCHANNELS\n{c}\n**MEASURDATA\n1 2 3\n4\n", r"a.tdx:4: a data row does not hold 1"),
         ("**MEASURCHANNELS\n{c}\n**MEASURDATA\n", "MEASURDATA is empty"),
         ("**MEASURCHANNELS\n{b}\n**MEASURDATA\n1\n", "factor and offsets"),

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from unittest.mock import patch
 
+import pandas as pd
 from no_rights_of_root import rights
 from retraining_files import put_fleet, tir_text
 
@@ -239,7 +240,7 @@ class Zoo:
                 self.ingested.save(store)
             table = nodes.stored_table(self.ingested.load())
             (self.base / place).mkdir(parents=True)
-            report.to_csv(self.base / place / "files.csv")
+            pd.concat(list(report)).to_csv(self.base / place / "files.csv")
             kept, _ = keep_usable(
                 table, DedupeFilterParameters(minimum_per_category=1), RepresentParameters(), "D"
             )

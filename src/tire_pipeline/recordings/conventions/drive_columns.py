@@ -44,6 +44,7 @@ def reader_of_drive(columns: Iterable[str]) -> str:
     else:
         return ""
     return (
-        f"this is {what}: in Python, {call}.to_csv('axle.csv', index=False) writes a recording of one axle "
-        "(functions of tire_pipeline.recordings; docs/reference/recordings.md, Driven vehicles)"
+        f"this is {what}: in Python, {call} makes a recording of one axle of it, which its method "
+        "to_csv('axle.csv', index=False) writes (functions of tire_pipeline.recordings; "
+        "docs/reference/recordings.md, Driven vehicles)"
     )
