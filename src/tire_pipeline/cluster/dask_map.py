@@ -103,8 +103,9 @@ def _connected(chosen: ClusterParameters) -> Client:
         from distributed import Client, Security
     except ImportError as error:
         raise DomainError("Dask is not installed", todo='pip install -e ".[cluster]"') from error
-    # a lost scheduler is told in one line by _gone; Dask logs a traceback of its tries to connect again
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+    # a lost scheduler is told in one line by _gone; Dask logs tracebacks of what it still sends and tries
+    for name in ("distributed.client", "distributed.batched"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     security = None
     if check_address(chosen):
         security = Security(
