@@ -117,3 +117,17 @@ def test_a_force_that_rests_while_nothing_moves_is_not_clipped(tire, rest):
     force = rest - 100.0 * moves
     r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + moves, "fy": force})
     assert _limits(tire, r) == []
+
+
+def test_a_limit_is_found_beside_the_zero_at_which_a_force_rests(tire):
+    """Each end is judged by itself: the zero is no limit, and does not hide the other end."""
+    t = np.arange(0.0, 100.0, 0.1)
+    pulse = np.maximum(t - 65.0, 0.0)
+    moves = np.random.default_rng(0).standard_normal(t.size)
+    force = np.maximum(-200.0 * pulse + 15.0 * moves * (pulse > 0.0), -4000.0)
+    force = np.where(pulse > 0.0, np.minimum(force, -1.0), 0.0)
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5 + 1e-4 * moves, "normal_load": 4000.0 + t})
+    r["fy"] = force
+    (found,) = _limits(tire, r)
+    assert found.limits == (-4000.0, np.inf)
+    assert found.bad.mean() < 0.2

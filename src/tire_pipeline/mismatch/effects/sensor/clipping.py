@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 import scipy
@@ -42,8 +43,10 @@ class Clipping(Effect):
             if name not in channels:
                 continue
             x = channels[name]
-            bad, limits = _points_at_a_limit(x) if "_steady_points" in channels else _at_the_ends(x)
-            if bad is None or _held(name, bad, channels):
+            held = partial(_held, name, channels)
+            look = _points_at_a_limit if "_steady_points" in channels else _at_the_ends
+            bad, limits = look(x, held)
+            if bad is None:
                 continue
             text = (
                 f"{name} stays exactly at {', '.join(f'{v:.5g}' for v in limits)} for "
@@ -56,7 +59,7 @@ class Clipping(Effect):
         return found
 
 
-def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
+def _at_the_ends(x: Array, held: Callable[[Array], bool]) -> tuple[Array | None, list[float]]:
     """Samples in time that stand exactly at the largest or smallest value, if these are many.
 
     They must stay there three samples on end, and be more than the crest of a smooth signal leaves in a last
@@ -74,7 +77,7 @@ def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
         at = x == value
         runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
         stays = runs.size and runs.max() >= 3 and not _crest(values, counts, value)
-        if at.sum() >= least and stays:
+        if at.sum() >= least and stays and not held(at):
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])
@@ -87,7 +90,7 @@ _HELD_FROM = 0.6
 _DECIMALS = range(-3, 12)
 
 
-def _held(name: str, at: Array, channels: Mapping[str, Array]) -> bool:
+def _held(name: str, channels: Mapping[str, Array], at: Array) -> bool:
     """Whether a channel stands at a value because it is held there, and not because it can't go beyond.
 
     An input is held for most of a test. A force rests at zero, or as long as slip and load stand still.
@@ -98,7 +101,7 @@ def _held(name: str, at: Array, channels: Mapping[str, Array]) -> bool:
     return name not in FORCE_CHANNELS or bool(np.all(channels[name][at] == 0.0)) or not moves
 
 
-def _points_at_a_limit(x: Array) -> tuple[Array | None, list[float]]:
+def _points_at_a_limit(x: Array, held: Callable[[Array], bool]) -> tuple[Array | None, list[float]]:
     """Steady points exactly at a limit: of either sign, or at one end.
 
     So many must not coincide there by chance. One more point falls on the limit with the probability that
@@ -112,7 +115,7 @@ def _points_at_a_limit(x: Array) -> tuple[Array | None, list[float]]:
         limit = float(np.max(y[finite]))
         at = finite & (y == limit)
         below = y[finite & ~at]
-        if below.size and _coincide(limit - below, x[finite & ~at], at.sum()):
+        if below.size and not held(at) and _coincide(limit - below, x[finite & ~at], at.sum()):
             return at, sorted({float(v) for v in x[at]}, reverse=True)
     return None, []
 
