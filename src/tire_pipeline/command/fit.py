@@ -54,14 +54,19 @@ def command(
     **output: Any,
 ) -> None:
     """Fit a model."""
+    from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS
     from tire_pipeline.magic_formula import fit_magic_formula
     from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
     from tire_pipeline.recordings import join_recordings
+    from tire_pipeline.recordings.spikes import without_spikes
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
     check_target(target, overwrite, *runs, *([start] if start else []))
-    recordings = read_runs(runs, axes=axes, units=units, names=names, format_=format_)
+    recordings, spiked = {}, []
+    for name, run in read_runs(runs, axes=axes, units=units, names=names, format_=format_).items():
+        recordings[name], remarks = without_spikes(run, (*INPUT_CHANNELS, *FORCE_CHANNELS))
+        spiked += [f"{name}: {said}" for said in remarks]
     joined = join_recordings(recordings) if len(recordings) > 1 else next(iter(recordings.values()))
     result = fit_magic_formula(
         joined,
@@ -85,7 +90,7 @@ def command(
         digits=COMPUTED_DIGITS,
         overwrite=overwrite,
     )
-    notes = [*joined.attrs.get("notes", []), *result.notes]
+    notes = [*spiked, *joined.attrs.get("notes", []), *result.notes]
     finish(_outcome(result, list(recordings), target, notes), f"{target.stem}_fit", **output)
 
 

@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.explainer import Explainer
 from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
+from tire_pipeline.mismatch.recording.given import SPIKES, usable_numbers
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.headline.sentences import with_held_out, without_equation
 from tire_pipeline.mismatch.report.result import MismatchReport
@@ -91,7 +92,7 @@ def explain_recordings(
             f"there is no recording {held_out!r} to hold out",
             todo=f"name one of {', '.join(recordings)}",
         )
-    explained = {name: frame for name, frame in recordings.items() if name != held_out}
+    explained = {name: usable_numbers(frame) for name, frame in recordings.items() if name != held_out}
     if not explained:
         raise RecordingError("the only recording is held out", todo="pass another one to explain")
     if len(explained) == 1:
@@ -100,6 +101,9 @@ def explain_recordings(
     else:
         joined = join_recordings(explained)
         notes = notes_beside_assumed(joined)
+        notes += [
+            f"{name}: {said}" for name, each in explained.items() for said in each.attrs.get(SPIKES, [])
+        ]
     try:
         report = (explainer or Explainer()).explain(tire, joined)
     except RecordingError as error:
@@ -158,7 +162,7 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     the difference is due to the effects. Wear, drift and a change of surface start from zero in this
     recording. The interval resamples independent stretches of the recording.
     """
-    usable = _finite(recording)
+    usable = _finite(usable_numbers(recording))
     after = corrected.predict(usable)
     before = replace(corrected, changes=(), unnamed=None).predict(usable)
     names = [n for n in after.columns if n in usable and np.isfinite(usable[n]).any()]

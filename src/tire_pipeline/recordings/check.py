@@ -20,13 +20,14 @@ from tire_pipeline.recordings.conventions.plausible import (
     plausible,
     size,
 )
+from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 """Minimum rows of a recording in time, and of steady points: fewer cannot separate an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels, and a load that the tire model is for."""
-LONGEST_HOLE = 3
+LONGEST_HOLE = LONGEST_SPIKE
 """Samples: holes of up to so many are interpolated linearly in time."""
 BREAK_OF_TIME_LINE = LONGEST_HOLE + 0.5
 """Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
@@ -270,8 +271,16 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
                     blocks[:20],
                 )
             )
+        issues += _spikes(str(column), values) if column in _USED else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     return issues + _force_and_load(frame)
+
+
+def _spikes(column: str, values: np.ndarray) -> list[Issue]:
+    found = spikes(values)
+    if column == "time" or not found.any():
+        return []
+    return [Issue("spikes", "warning", said_of_spikes(column, values, found), "left out", _runs(found))]
 
 
 def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:

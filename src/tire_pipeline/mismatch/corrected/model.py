@@ -251,6 +251,29 @@ class CorrectedModel:
         ]
         return clean if left[0] < left[1] else plain
 
+    def limited_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
+        """Return the model with the limits of those forces that are predicted no worse with them.
+
+        Parameters
+        ----------
+        recording : pandas.DataFrame
+            The recording that was explained, as it was recorded, SI.
+
+        Returns
+        -------
+        CorrectedModel
+            The same where no limit is left out.
+        """
+        if not self.limits:
+            return self
+        within, free = self.predict(recording), replace(self, limits={}).predict(recording)
+        kept = {
+            o: ends
+            for o, ends in self.limits.items()
+            if rms(recording[o] - within[o]) <= rms(recording[o] - free[o])
+        }
+        return replace(self, limits=kept)
+
     def _data(self, recording: pd.DataFrame) -> Data:
         n = len(recording)
         if "normal_load" not in recording:

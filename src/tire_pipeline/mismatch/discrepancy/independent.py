@@ -8,6 +8,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
 
@@ -15,17 +16,22 @@ Array = np.ndarray
 _SLIP_CHANNELS = ("slip_angle", "slip_ratio")
 _FEWEST_STRETCHES = 15
 """Fewest stretches whose variance is meaningful."""
-_JUMP = 0.1
-"""Step of an input, over its range, by which a test plan goes on; the steps of a run are smaller."""
 
 
 def measured_apart(data: Data) -> float:
-    """Return the share of samples that don't follow the one before: without time, where an input jumps."""
+    """Return the share of samples that were measured by themselves: without time, those without a neighbour.
+
+    A neighbour is where slip, camber and load count as held. Samples of a run have neighbours in whatever
+    order the rows are given; the points of a test plan are apart.
+    """
     if data.time is not None:
         return 0.0
-    inputs = [data.get(n) for n in SLIP_AND_LOAD if data.varies(n)]
-    steps = [np.abs(np.diff(x)) / np.ptp(x) for x in inputs]
-    return float(np.mean(np.max(steps, axis=0) > _JUMP)) if steps else 0.0
+    inputs = [data.get(n) / least_spread(n, data.get(n)) for n in SLIP_AND_LOAD if data.varies(n)]
+    if not inputs:
+        return 0.0
+    place = np.column_stack(inputs)
+    distance, _ = scipy.spatial.cKDTree(place).query(place, k=2, p=np.inf)
+    return float(np.mean(distance[:, 1] > 1.0))
 
 
 def independent(left: Array, orders: Sequence[Array]) -> float:

@@ -7,9 +7,37 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import RECORDED_CHANNELS
+from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, RECORDED_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.check import repeated_channels
+from tire_pipeline.recordings.spikes import without_spikes
+
+SPIKES = "spikes"
+"""Key of what was said of spikes, in the attributes of a recording."""
+
+
+def usable_numbers(recording: Any) -> pd.DataFrame:
+    """Return a recording with its known columns as numbers, and NaN where a value is a spike.
+
+    Parameters
+    ----------
+    recording : pandas.DataFrame
+        It stays as it is.
+
+    Returns
+    -------
+    pandas.DataFrame
+        ``attrs["spikes"]`` says what was left out.
+
+    Raises
+    ------
+    RecordingError
+        As :func:`numeric`.
+    """
+    whole, remarks = without_spikes(numeric(recording), (*INPUT_CHANNELS, *FORCE_CHANNELS))
+    if remarks:
+        whole.attrs = {**whole.attrs, SPIKES: [*whole.attrs.get(SPIKES, []), *remarks]}
+    return whole
 
 
 def numeric(recording: Any) -> pd.DataFrame:

@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
-from tire_pipeline.mismatch.recording.given import check_tire, numeric
+from tire_pipeline.mismatch.recording.given import SPIKES, check_tire, usable_numbers
 from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
@@ -137,6 +137,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     """
     notes: list[str] = []
     check_tire(tire)
+    recording = usable_numbers(recording)
     arrays = _arrays(recording)
     time = rising_time(arrays)
     if time is not None:
@@ -193,6 +194,7 @@ def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]
     assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
     converted = [t for t in recording.attrs.get("conversions", []) if not _of_unused(t)]
     assumed += [t.replace(" from ", " converted from ", 1) for t in converted]
+    assumed += recording.attrs.get(SPIKES, [])
     assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
     return assumed
 
@@ -207,7 +209,7 @@ def _of_unused(conversion: str) -> bool:
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
     """Return the numeric columns that are known, as float64."""
     arrays: dict[str, Array] = {}
-    for name, series in pd.DataFrame(numeric(recording), copy=False).items():  # attrs would be copied
+    for name, series in pd.DataFrame(recording, copy=False).items():  # attrs would be copied
         try:
             arrays[str(name)] = series.to_numpy(dtype=float, na_value=np.nan)
         except (TypeError, ValueError):

@@ -262,7 +262,7 @@ def _model(
     )
     every = [change for explanation in (changes, *(c for _, c in instead)) for change in explanation]
     turning = any(catalogue()[n].quarter_turn(p) is not None for n, p in every)
-    return CorrectedModel(
+    model = CorrectedModel(
         data.tire,
         tuple(changes),
         outputs,
@@ -276,7 +276,8 @@ def _model(
         instead=tuple(instead),
         part=part,
         rolled=_rolled(it) if turning else None,
-    ).cleaned_where_it_helps(it.recording)
+    )
+    return model.limited_where_it_helps(it.recording).cleaned_where_it_helps(it.recording)
 
 
 def _rolled(it: Explained) -> WheelWay:

@@ -1,0 +1,101 @@
+"""Spikes and dropouts: values that stand out from their neighbours, as a disturbed line makes them.
+
+One sample in a thousand that is off by a few times the largest force carries more power than all that a tire
+model leaves, and no physics has its shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+import pandas as pd
+import scipy
+
+Array = np.ndarray
+LONGEST_SPIKE = 3
+"""Samples: as many as a hole may have that is put on a straight line."""
+_WINDOW = 2 * LONGEST_SPIKE + 1
+"""Samples of the running median, which does not follow a spike."""
+_STANDS_OUT = 10.0
+"""Times as far off as the channel moves: the geometric mean of how much it does so nearby, and usually. In
+the shared recordings (calspan, DART, 2 to 100 Hz) no sample of any channel reaches five; of 40 simulated
+ones, none reaches six."""
+
+
+def spikes(x: Array) -> Array:
+    """Return which samples of a channel are spikes.
+
+    A value that is repeated exactly counts once, so that a dropout of any length is one. Where the channel
+    itself moves fast, or neighbours are separate test points, nothing stands out.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+        One channel in any unit; NaN where nothing was recorded.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+    """
+    known = np.isfinite(x)
+    found = np.zeros(x.size, bool)
+    new = np.diff(x[known], prepend=np.nan) != 0.0
+    values = x[known][new]
+    if values.size < _WINDOW:
+        return found
+    middle = scipy.ndimage.median_filter(values, _WINDOW, mode="mirror")
+    around = 2 * _WINDOW + 1
+    moves = scipy.ndimage.maximum_filter(middle, around) - scipy.ndimage.minimum_filter(middle, around)
+    off = np.abs(values - middle)
+    usual = max(float(np.quantile(off, 0.9)), float(np.median(np.abs(np.diff(values)))))
+    alone = off > _STANDS_OUT * np.sqrt(np.maximum(moves, usual) * usual)
+    found[known] = alone[np.cumsum(new) - 1]
+    return found
+
+
+def said_of_spikes(name: str, x: Array, found: Array) -> str:
+    """Return the channel, how many of its samples are spikes, the largest of them, and the first row.
+
+    Parameters
+    ----------
+    name : str
+    x : ndarray, shape (n,)
+    found : ndarray of bool, shape (n,)
+        Of :func:`spikes`; at least one.
+    """
+    rows = np.flatnonzero(found)
+    most = float(x[rows[np.argmax(np.abs(x[rows]))]])
+    if rows.size == 1:
+        return f"{name}: the value {most:.4g} in row {rows[0]} stands out from its neighbours"
+    return (
+        f"{name}: {rows.size} values stand out from their neighbours, up to {most:.4g}, "
+        f"the first in row {rows[0]}"
+    )
+
+
+def without_spikes(recording: pd.DataFrame, channels: Collection[str]) -> tuple[pd.DataFrame, list[str]]:
+    """Return a recording with NaN in place of spikes, and what is said of them.
+
+    Parameters
+    ----------
+    recording : DataFrame
+        Numeric columns. It stays as it is.
+    channels : collection of str
+        Columns that are looked at, if they are there.
+
+    Returns
+    -------
+    recording : DataFrame
+        The same object where nothing stands out.
+    remarks : list of str
+        One for each channel that has spikes.
+    """
+    without, remarks = {}, []
+    for name in (n for n in channels if n in recording):
+        x = recording[name].to_numpy(dtype=float, na_value=np.nan)
+        found = spikes(x)
+        if found.any():
+            without[name] = np.where(found, np.nan, x)
+            remarks.append(f"{said_of_spikes(name, x, found)}; left out")
+    return (recording.assign(**without) if without else recording), remarks
