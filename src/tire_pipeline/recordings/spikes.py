@@ -17,7 +17,7 @@ LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
-_STANDS_OUT = 10.0
+STANDS_OUT = 10.0
 """Times as far off as the channel moves: the geometric mean of how much it does so nearby, and usually. In
 the shared recordings (calspan, DART, 2 to 100 Hz) no sample of any channel reaches five; of 40 simulated
 ones, none reaches six."""
@@ -49,7 +49,7 @@ def spikes(x: Array) -> Array:
     moves = scipy.ndimage.maximum_filter(middle, around) - scipy.ndimage.minimum_filter(middle, around)
     off = np.abs(values - middle)
     usual = max(float(np.quantile(off, 0.9)), float(np.median(np.abs(np.diff(values)))))
-    alone = off > _STANDS_OUT * np.sqrt(np.maximum(moves, usual) * usual)
+    alone = off > STANDS_OUT * np.sqrt(np.maximum(moves, usual) * usual)
     found[known] = alone[np.cumsum(new) - 1]
     return found
 

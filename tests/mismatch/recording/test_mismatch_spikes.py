@@ -1,6 +1,7 @@
 """Before any explanation: single samples that a disturbance put far off change nothing."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch, explain_recordings
@@ -60,3 +61,34 @@ def test_rows_without_time_are_dropped_where_a_value_stands_out(tire, record):
     kept = prepare(tire, spiked(run, fy={300: 1e5})).rows
     assert sorted(set(range(len(run))) - set(kept)) == [300]
     assert np.all(np.diff(kept) > 0)
+
+
+def points(tire, seed=0, **change):
+    """Steady points with the noise of a table: 25 slip angles at three loads."""
+    slip, load = (x.ravel() for x in np.meshgrid(np.radians(np.arange(-12.0, 13.0)), [2e3, 4e3, 6e3]))
+    force = tire.replace(**change).forces(slip_angle=slip, normal_load=load).fy
+    noise = 30.0 * np.random.default_rng(seed).standard_normal(slip.size)
+    table = pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": force + noise})
+    return table.sample(frac=1.0, random_state=seed).reset_index(drop=True)
+
+
+@pytest.mark.parametrize("wrong", [lambda f: -f, lambda f: 0.0, lambda f: 10.0 * f])
+@pytest.mark.parametrize("change", [{}, {"LMUY": 0.85}])
+def test_one_wrong_point_of_a_table_changes_nothing_that_is_said(tire, wrong, change):
+    """A turned sign of one point of TYDEX gave three causes with 1.0 each."""
+    table = points(tire, **change)
+    row = int(table["fy"].idxmax())
+    plain = explain_mismatch(tire, table)
+    report = explain_mismatch(tire, spiked(table, fy={row: wrong(table["fy"][row])}))
+    assert report.verdict == plain.verdict
+    assert [names for names, _ in report.sets] == [names for names, _ in plain.sets]
+    assert report.fit["fy"].rms_before == pytest.approx(plain.fit["fy"].rms_before, rel=0.05)
+    (said,) = [text for text in report.assumed if "unlike the points around it" in text]
+    assert said.startswith("fy: ")
+    assert f"in row {row} " in said
+
+
+@pytest.mark.parametrize("change", [{}, {"LMUY": 0.7}, {"LKY": 0.7}, {"PVY1": 0.05}, {"PDY2": -0.3}])
+@pytest.mark.parametrize("seed", range(3))
+def test_no_point_is_left_out_for_what_a_tire_does(tire, change, seed):
+    assert not prepare(tire, points(tire, seed, **change)).left_out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,21 @@ def usable_numbers(recording: Any) -> pd.DataFrame:
     if remarks:
         whole.attrs = {**whole.attrs, SPIKES: [*whole.attrs.get(SPIKES, []), *remarks]}
     return whole
+
+
+def without_values(recording: pd.DataFrame, rows: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """Return a recording with NaN in some rows of some columns; the same object where there are none.
+
+    Parameters
+    ----------
+    recording : pandas.DataFrame
+    rows : mapping of ndarray of int
+        Column -> rows.
+    """
+    changed = {name: recording[name].to_numpy(dtype=float, na_value=np.nan).copy() for name in rows}
+    for name, values in changed.items():
+        values[rows[name]] = np.nan
+    return recording.assign(**changed) if changed else recording
 
 
 def numeric(recording: Any) -> pd.DataFrame:

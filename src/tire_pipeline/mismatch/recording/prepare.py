@@ -18,8 +18,9 @@ from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
-from tire_pipeline.mismatch.recording.given import SPIKES, check_tire, usable_numbers
+from tire_pipeline.mismatch.recording.given import SPIKES, check_tire, usable_numbers, without_values
 from tire_pipeline.mismatch.recording.identity import another_tire
+from tire_pipeline.mismatch.recording.lone_points import lone_points
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time
@@ -62,6 +63,8 @@ class Prepared:
     questions : list of Question
         Questions to settle before anything is explained, or before anything corrected is written, in this
         order.
+    left_out : mapping of ndarray of int
+        Force -> rows of the recording whose value is unlike all around it.
     """
 
     data: Data
@@ -72,6 +75,11 @@ class Prepared:
     cleaned: list[Cleaning] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
     questions: list[Question] = field(default_factory=list)
+    left_out: Mapping[str, Array] = field(default_factory=dict)
+
+    def kept_of(self, recording: pd.DataFrame) -> pd.DataFrame:
+        """Return the recording without the values that are left out."""
+        return without_values(recording, self.left_out)
 
     @property
     def question(self) -> Question | None:
@@ -159,6 +167,11 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]
         _check_what_is_left(rows.size, int(bad.sum()))
+    lone, alone = lone_points(tire, arrays, rows) if time is None and beside is None else ({}, [])
+    left_out = {force: rows[points] for force, points in lone.items()}
+    kept = np.setdiff1d(np.arange(rows.size), np.concatenate([[], *lone.values()]))
+    rows, arrays = rows[kept], {n: a[kept] for n, a in arrays.items()}
+    time = None if time is None else time[kept]
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
@@ -168,7 +181,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         axes = open_axes(tire, arrays, time, findings, against)
         asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
-    assumed = [*_assumed(recording, factors), *_zeros(arrays, rows.size), *assumed_radius(tire)]
+    assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = beginnings(time, rows.size, rows)
     notes += long_gaps(time, start)
     arrays, time, start, rows = averaged(arrays, time, start, rows)
@@ -186,7 +199,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         present=present,
     )
     data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
-    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q])
+    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q], left_out)
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
