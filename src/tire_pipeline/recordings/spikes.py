@@ -12,22 +12,21 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from tire_pipeline.outliers import STANDS_OUT
+
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
-STANDS_OUT = 10.0
-"""Times as far off as the channel moves: the geometric mean of how much it does so nearby, and usually. In
-the shared recordings (calspan, DART, 2 to 100 Hz) no sample of any channel reaches five; of 40 simulated
-ones, none reaches six."""
 
 
 def spikes(x: Array) -> Array:
     """Return which samples of a channel are spikes.
 
     A value that is repeated exactly counts once, so that a dropout of any length is one. Where the channel
-    itself moves fast, or neighbours are separate test points, nothing stands out.
+    itself moves fast, or neighbours are separate test points, nothing stands out: how far a sample usually is
+    off is the geometric mean of how much the channel moves nearby, and of what one sample in ten is off.
 
     Parameters
     ----------

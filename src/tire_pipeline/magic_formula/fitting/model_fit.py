@@ -19,6 +19,7 @@ from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
+from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_points
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
@@ -121,7 +122,8 @@ def fit_magic_formula(
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
-    notes += said
+    forces, lone = without_lone_points(points, forces)
+    notes += [*said, *lone]
     report = _Report(notes, start is not None)
     options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way

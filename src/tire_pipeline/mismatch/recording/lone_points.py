@@ -10,15 +10,12 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
-from tire_pipeline.mismatch.model.channels import high
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
-from tire_pipeline.recordings.spikes import STANDS_OUT
+from tire_pipeline.outliers import unlike_neighbours
 
 Array = np.ndarray
-_NEIGHBOURS = 6
 
 
 def lone_points(tire: Any, arrays: Mapping[str, Array], rows: Array) -> tuple[dict[str, Array], list[str]]:
@@ -45,17 +42,12 @@ def lone_points(tire: Any, arrays: Mapping[str, Array], rows: Array) -> tuple[di
     """
     lone: dict[str, Array] = {}
     remarks: list[str] = []
-    moved = [x / np.ptp(x) for n in SLIP_AND_LOAD if n in arrays and np.ptp(x := arrays[n]) > 0.0]
-    if not moved or rows.size <= _NEIGHBOURS:
-        return lone, remarks
-    place = np.column_stack(moved)
-    near = scipy.spatial.cKDTree(place).query(place, k=_NEIGHBOURS + 1)[1][:, 1:]
     zero = np.zeros(rows.size)
-    simulated = plain_forces(tire, **{n: arrays.get(n, zero) for n in SLIP_AND_LOAD})
+    points = {n: arrays.get(n, zero) for n in SLIP_AND_LOAD}
+    simulated = plain_forces(tire, **points)
     for name in (n for n in TANGENTIAL_FORCES if n in arrays):
         rest = arrays[name] - simulated[name]
-        off = np.abs(rest - np.median(rest[near], axis=1))
-        found = np.flatnonzero(off > STANDS_OUT * high(off))
+        found = np.flatnonzero(unlike_neighbours(rest, np.column_stack(list(points.values()))))
         if found.size:
             lone[name] = found
         remarks += [
