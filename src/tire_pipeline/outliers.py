@@ -9,7 +9,7 @@ Array = np.ndarray
 STANDS_OUT = 10.0
 """Times as far off as usual. In the shared recordings (calspan, DART, TYDEX, 2 to 100 Hz) no sample of any
 channel, and no residual of a point, reaches five; in 40 simulated recordings none reaches six."""
-NEIGHBOURS = 6
+_POINTS_AROUND = 6
 """Points around one, whose median it is compared with."""
 
 _TURNS_A_FIT = 0.05
@@ -34,11 +34,11 @@ def unlike_neighbours(values: Array, place: Array) -> Array:
     ndarray of bool, shape (n,)
         None where there are no more points than neighbours, or all are at one place.
     """
-    moved = place[:, np.ptp(place, axis=0) > 0.0] if len(place) > NEIGHBOURS else place[:, :0]
+    moved = place[:, np.ptp(place, axis=0) > 0.0] if len(place) > _POINTS_AROUND else place[:, :0]
     if moved.shape[1] == 0:
         return np.zeros(values.size, bool)
     tree = scipy.spatial.cKDTree(moved / np.ptp(moved, axis=0))
-    near = tree.query(tree.data, k=NEIGHBOURS + 1)[1][:, 1:]
+    near = tree.query(tree.data, k=_POINTS_AROUND + 1)[1][:, 1:]
     off = np.abs(values - np.median(values[near], axis=1))
     usual = float(np.quantile(off, 0.9))
     moves = np.ptp(values[near], axis=1)

@@ -92,3 +92,20 @@ def test_one_wrong_point_of_a_table_changes_nothing_that_is_said(tire, wrong, ch
 @pytest.mark.parametrize("seed", range(3))
 def test_no_point_is_left_out_for_what_a_tire_does(tire, change, seed):
     assert not prepare(tire, points(tire, seed, **change)).left_out
+
+
+def test_a_wheel_that_stands_says_nothing(tire, record):
+    """After a run the rig stands at some slip, without a force: that was a dependence on speed with 1.0."""
+    run = record()
+    at_rest = run.iloc[:200].assign(speed=0.01, slip_angle=0.08, fy=0.0)
+    noise = np.random.default_rng(3)
+    at_rest["speed"] += 0.02 * noise.standard_normal(200)
+    at_rest["fy"] += 10.0 * noise.standard_normal(200)
+    at_rest["slip_angle"] += 1e-4 * noise.standard_normal(200)
+    step = float(np.median(np.diff(run["time"])))
+    at_rest["time"] = run["time"].iloc[-1] + step * np.arange(1, 201)
+    report = explain_mismatch(tire, pd.concat([run, at_rest], ignore_index=True))
+    plain = explain_mismatch(tire, run)
+    assert (report.verdict, report.sets) == (plain.verdict, plain.sets)
+    assert report.fit["fy"].rms_before == pytest.approx(plain.fit["fy"].rms_before)
+    assert any("200 samples are left out: the wheel stands" in note for note in report.notes)

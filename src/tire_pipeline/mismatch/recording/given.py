@@ -20,6 +20,8 @@ SPIKES = "spikes"
 def usable_numbers(recording: Any) -> pd.DataFrame:
     """Return a recording with its known columns as numbers, and NaN where a value is a spike.
 
+    Where an input is one, there is no force to compare either.
+
     Parameters
     ----------
     recording : pandas.DataFrame
@@ -35,9 +37,14 @@ def usable_numbers(recording: Any) -> pd.DataFrame:
     RecordingError
         As :func:`numeric`.
     """
-    whole, remarks = without_spikes(numeric(recording), (*INPUT_CHANNELS, *FORCE_CHANNELS))
-    if remarks:
-        whole.attrs = {**whole.attrs, SPIKES: [*whole.attrs.get(SPIKES, []), *remarks]}
+    known = numeric(recording)
+    whole, remarks = without_spikes(known, (*INPUT_CHANNELS, *FORCE_CHANNELS))
+    if not remarks:
+        return whole
+    lost = [whole[n].isna() & known[n].notna() for n in INPUT_CHANNELS if n in whole]
+    rows = np.flatnonzero(np.any(lost, axis=0))
+    whole = without_values(whole, {n: rows for n in FORCE_CHANNELS if n in whole})
+    whole.attrs = {**whole.attrs, SPIKES: [*whole.attrs.get(SPIKES, []), *remarks]}
     return whole
 
 

@@ -24,7 +24,12 @@ from tire_pipeline.mismatch.recording.lone_points import lone_points
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time
-from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
+from tire_pipeline.mismatch.recording.usable import (
+    judge,
+    leave_out_no_pressure,
+    leave_out_still_slip,
+    standing,
+)
 from tire_pipeline.recordings.check import (
     LEAST_POINTS,
     LEAST_SAMPLES,
@@ -64,7 +69,7 @@ class Prepared:
         Questions to settle before anything is explained, or before anything corrected is written, in this
         order.
     left_out : mapping of ndarray of int
-        Force -> rows of the recording whose value is unlike all around it.
+        Force -> rows of the recording in which the wheel stands, or whose value is unlike all around it.
     """
 
     data: Data
@@ -152,6 +157,8 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         _bridge(arrays, notes)
     notes += _on_time(time)
     rows = _usable(arrays, time, notes)
+    still = standing({n: a[rows] for n, a in arrays.items()}, notes)
+    still, rows = rows[still], rows[~still]
     arrays = {n: a[rows] for n, a in arrays.items()}
     time = None if time is None else time[rows]
     beside = None
@@ -168,7 +175,8 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         time = None if time is None else time[~bad]
         _check_what_is_left(rows.size, int(bad.sum()))
     lone, alone = lone_points(tire, arrays, rows) if time is None and beside is None else ({}, [])
-    left_out = {force: rows[points] for force, points in lone.items()}
+    out = {n: np.r_[still, rows[lone.get(n, [])]] for n in TANGENTIAL_FORCES if n in arrays}
+    left_out = {n: gone for n, gone in out.items() if gone.size}
     kept = np.setdiff1d(np.arange(rows.size), np.concatenate([[], *lone.values()]))
     rows, arrays = rows[kept], {n: a[kept] for n, a in arrays.items()}
     time = None if time is None else time[kept]

@@ -12,7 +12,7 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, moves
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, CHANCE, SMALL, largest, moves
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.recordings.check import unit_stated
@@ -174,6 +174,24 @@ def judge(
         elif d.plain < 0.0:
             notes.append(f"{described(d)}; slip drives it all the same")
     return None, [d for d in counted if d.works]
+
+
+def standing(arrays: Mapping[str, Array], notes: list[str]) -> Array:
+    """Return the samples in which the wheel stands, bool, shape (n,), and note them.
+
+    A wheel that does not roll has neither a slip angle nor a force by it: its speed is below a twentieth of
+    the largest.
+    """
+    if "speed" not in arrays:
+        return np.zeros(arrays["normal_load"].size, bool)
+    speed = np.abs(arrays["speed"])
+    still = np.asarray(speed < CHANCE * largest(speed))
+    if still.any():
+        notes.append(
+            f"{int(still.sum())} samples are left out: the wheel stands (speed below "
+            f"{CHANCE * largest(speed):.2g} m/s)"
+        )
+    return still
 
 
 def leave_out_still_slip(tire: Any, arrays: dict[str, Array], time: Array | None, notes: list[str]) -> None:

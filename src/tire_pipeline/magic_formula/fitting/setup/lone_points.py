@@ -11,7 +11,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.outliers import unlike_neighbours
 
 Array = np.ndarray
-_MOST_ROWS = 2000
+_ENOUGH_POINTS = 2000
 _ROUGHLY = 0.05
 """What a rough curve leaves of a tire's forces, over the largest: from there a residual counts less."""
 
@@ -75,7 +75,7 @@ def _rough_force(points: Mapping[str, Array], force: Array, slip: str) -> Array:
         level = level + p[2] + p[3] * camber[rows]
         return np.asarray(load[rows] * level / np.sqrt(1.0 + (p[5] * other[rows]) ** 2))
 
-    some = np.linspace(0, force.size - 1, min(force.size, _MOST_ROWS)).round().astype(int)
+    some = np.linspace(0, force.size - 1, min(force.size, _ENOUGH_POINTS)).round().astype(int)
     turned = np.sign(np.median(np.sign(own * force))) or 1.0
     found = scipy.optimize.least_squares(
         lambda p: (curve(p, some) - force[some]) / largest,
