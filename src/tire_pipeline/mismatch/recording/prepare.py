@@ -22,7 +22,7 @@ from tire_pipeline.mismatch.recording.given import check_tire, numeric
 from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
-from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time
+from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time, seams
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import (
     LEAST_POINTS,
@@ -169,7 +169,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = beginnings(time, rows.size, rows)
-    notes += long_gaps(time, start)
+    notes += long_gaps(time, start, seams(recording.attrs.get("joined", ()), rows))
     arrays, time, start, rows = averaged(arrays, time, start, rows)
     arrays, cleaned = (arrays, []) if time is None else _cleaned(tire, arrays, start)
     notes += [c.text() for c in cleaned]

@@ -31,6 +31,31 @@ def _three_digits(value: float) -> str:
     return f"{value:,.0f}" if abs(value) >= 999.5 else f"{value:.3g}"
 
 
+def ends(axis: str, low: float, high: float) -> tuple[str, str]:
+    """Return both ends of a range as :func:`figure` does, with the same decimals.
+
+    The larger end decides how many there can be: three digits of it.
+
+    Examples
+    --------
+    >>> ends("time", 52.9, 60.0), ends("time", 0.0, 60.0), ends("time", 0.0523, 96.2)
+    (('52.9', '60.0'), ('0', '60'), ('0.1', '96.2'))
+    """
+    size = max(abs(low), abs(high))
+    factor = shown_unit(axis, size)[0]
+    pair = figure(axis, low, size), figure(axis, high, size)
+    if "e" in "".join(pair):
+        return pair
+    most = max(2 - int(np.floor(np.log10(size * factor))), 0) if size > 0.0 else 0
+    decimals = min(max(len(text.partition(".")[2]) for text in pair), most)
+    a, b = (0.0 if t == "0" else round(v * factor, decimals) for t, v in zip(pair, (low, high), strict=True))
+    return _decimals(a, decimals), _decimals(b, decimals)
+
+
+def _decimals(value: float, decimals: int) -> str:
+    return f"{value:,.{decimals}f}" if value else "0"
+
+
 def label(axis: str) -> str:
     """Return the name of an axis in words."""
     return shown_unit(axis, 0.0).label
@@ -40,7 +65,7 @@ def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``, or ``speed 22.2 m/s`` where both ends are written alike."""
     size = max(abs(low), abs(high))
     _, unit, name = shown_unit(axis, size)
-    a, b = figure(axis, low, size), figure(axis, high, size)
+    a, b = ends(axis, low, high)
     return f"{name} {a if a == b else f'{a} to {b}'} {unit}".strip()
 
 
@@ -142,7 +167,7 @@ def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, 
     """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
     size = max(abs(low), abs(high))
     _, unit, name = shown_unit(axis, size)
-    a, b = figure(axis, low, size), figure(axis, high, size)
+    a, b = ends(axis, low, high)
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
     if axis == "time":
