@@ -15,7 +15,7 @@ from tire_pipeline.command.options import (
     read_runs,
     reading_options,
 )
-from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
@@ -137,13 +137,15 @@ def _rms(value: float) -> float:
 
 
 def _errors(report: MismatchReport) -> Grid:
+    from tire_pipeline.mismatch.report.report_page import range_of
+
     return Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
             (
                 name.capitalize(),
                 *map(_rms, (fit.noise_floor, fit.rms_before, fit.rms_after)),
-                f"{digits(_rms(fit.rms_after_low))} to {digits(_rms(fit.rms_after_high))}",
+                range_of(fit.rms_after_low, fit.rms_after_high),
                 "N m" if name.startswith("m") else "N",
             )
             for name, fit in report.fit.items()
@@ -162,6 +164,8 @@ def _found(effects: list[EffectReport]) -> Grid:
 
 
 def _held_out(fit: HeldOutFit) -> Grid:
+    from tire_pipeline.mismatch.report.report_page import range_of
+
     return Grid(
         ("output", "RMS before", "RMS after", "after, of before (95%)"),
         [
@@ -169,7 +173,7 @@ def _held_out(fit: HeldOutFit) -> Grid:
                 n.capitalize(),
                 _rms(e.rms_before),
                 _rms(e.rms_after),
-                f"{e.ratio_low:.2f} to {e.ratio_high:.2f}",
+                range_of(e.ratio_low, e.ratio_high),
             )
             for n, e in fit.errors.items()
         ],

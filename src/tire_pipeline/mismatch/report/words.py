@@ -32,28 +32,40 @@ def _three_digits(value: float) -> str:
 
 
 def ends(axis: str, low: float, high: float) -> tuple[str, str]:
-    """Return both ends of a range as :func:`figure` does, with the same decimals.
-
-    The larger end decides how many there can be: three digits of it.
+    """Return both ends of a range in the axis' unit, by :func:`same_decimals`; what no rig controls is 0.
 
     Examples
     --------
-    >>> ends("time", 52.9, 60.0), ends("time", 0.0, 60.0), ends("time", 0.0523, 96.2)
-    (('52.9', '60.0'), ('0', '60'), ('0.1', '96.2'))
+    >>> ends("time", 52.9, 60.0), ends("normal_load", 2600.0, 7785.0)
+    (('52.9', '60.0'), ('2.60', '7.79'))
+    """
+    factor = shown_unit(axis, max(abs(low), abs(high)))[0]
+    low, high = (0.0 if abs(value) < _FINEST.get(axis, 0.0) else value * factor for value in (low, high))
+    return same_decimals(low, high)
+
+
+def same_decimals(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers with the same decimals: as many as three digits of the larger one need.
+
+    Decimals that both have as zeros are left out.
+
+    Examples
+    --------
+    >>> same_decimals(52.9, 60.0), same_decimals(0.0523, 96.2), same_decimals(0.0, 60.0)
+    (('52.9', '60.0'), ('0.1', '96.2'), ('0', '60'))
     """
     size = max(abs(low), abs(high))
-    factor = shown_unit(axis, size)[0]
-    pair = figure(axis, low, size), figure(axis, high, size)
-    if "e" in "".join(pair):
-        return pair
-    most = max(2 - int(np.floor(np.log10(size * factor))), 0) if size > 0.0 else 0
-    decimals = min(max(len(text.partition(".")[2]) for text in pair), most)
-    a, b = (0.0 if t == "0" else round(v * factor, decimals) for t, v in zip(pair, (low, high), strict=True))
-    return _decimals(a, decimals), _decimals(b, decimals)
+    most = max(2 - int(np.floor(np.log10(size))), 0) if 0.0 < size < np.inf else 0
+    exact = [round(value, most) for value in (low, high)]
+    decimals = next((d for d in range(most) if [round(value, d) for value in exact] == exact), most)
+    a, b = (_with_decimals(value, decimals) for value in (low, high))
+    return a, b
 
 
-def _decimals(value: float, decimals: int) -> str:
-    return f"{value:,.{decimals}f}" if value else "0"
+def _with_decimals(value: float, decimals: int) -> str:
+    if not np.isfinite(value):
+        return "–"
+    return f"{value:,.{decimals}f}" if round(value, decimals) else "0"
 
 
 def label(axis: str) -> str:
