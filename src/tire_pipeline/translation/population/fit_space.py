@@ -6,6 +6,7 @@ Noise shows in files of one tire in one category. What is a tire's own is what c
 from __future__ import annotations
 
 import logging
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -209,7 +210,9 @@ def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
         return None
     lost = 1.0 - 1.0 / count[cell[several]].mean()
     try:
-        robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
+        with warnings.catch_warnings():  # files that are nearly alike: what was found best so far is kept
+            warnings.filterwarnings("ignore", message="Determinant has increased|The covariance matrix")
+            robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
     except ValueError as error:
         if "equal to 0" not in str(error):
             raise
