@@ -125,8 +125,8 @@ def _drift(drift: pd.DataFrame) -> list[Part]:
     heading = "Drift of incoming files, per category"
     if drift.empty:
         return [Text(["Nothing to compare: no incoming files, or none before them."], heading=heading)]
-    tested = drift[drift["p_adjusted"].notna()]
-    untold = _not_compared(drift[drift["p_adjusted"].isna()])
+    tested = drift[drift["psi"].notna()]
+    untold = _not_compared(drift[drift["psi"].isna()])
     if tested.empty:
         return [Text(["Nothing can be said.", *untold], heading=heading)]
     moved = tested[tested["verdict"] == DRIFT]
