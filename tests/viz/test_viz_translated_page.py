@@ -245,7 +245,7 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
         "slip angle (deg)",
         "Fy (kN)",
         "Mz (N m)",
-        "stiffness (kN/rad)",
+        "stiffness (N/deg)",
         "normal load 6 kN",
         "90% band",
     ):
