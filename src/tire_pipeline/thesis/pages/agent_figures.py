@@ -42,7 +42,7 @@ def learning_figure(results: Results) -> MplFigure | None:
         return None
     algorithms = [name for name in ("PPO", "A2C") if name in set(frame["algorithm"])]
     columns = max(len(algorithms), 1)
-    figure, axes = new_figure(1, columns, width=max(4.6 * columns, 7.0), height=3.6, sharey=True)
+    figure, axes = new_figure(1, columns, width=max(4.6 * columns, 9.0), height=3.6, sharey=True)
     names = list(dict.fromkeys(frame["representation"]))
     for one, algorithm in zip(np.atleast_1d(np.asarray(axes)), algorithms, strict=True):
         _draw_learning(one, frame[frame["algorithm"] == algorithm], names)
