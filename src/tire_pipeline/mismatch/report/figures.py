@@ -19,7 +19,7 @@ from tire_pipeline.pages.drawing import captioned, svg_element
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
 _NO_DATA = "#D4D4D4"
 """Behind the map: a cell without a mean is not one without a difference, which is white."""
-_FEWEST = 3
+_FEWEST_OF_A_CELL = 3
 """Samples of a cell with a mean."""
 _CANCELS = "What differs in both directions within a cell cancels in its mean."
 _HEIGHT_OF_A_BAR = 0.05
@@ -141,7 +141,7 @@ def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
     """Means over the cells with enough samples."""
     count, *_ = np.histogram2d(x, y, list(edges))
     total, *_ = np.histogram2d(x, y, list(edges), weights=values)
-    return np.where(count >= _FEWEST, total / np.maximum(count, 1), np.nan)
+    return np.where(count >= _FEWEST_OF_A_CELL, total / np.maximum(count, 1), np.nan)
 
 
 def overview(report: ReportContents) -> Figure:
@@ -164,7 +164,7 @@ def overview(report: ReportContents) -> Figure:
 def _map_caption(report: ReportContents, output: str) -> str:
     points = _slip(report, output).size < _MARKED_POINTS
     faded = "; it should fade from before to after" if report.corrected.changes else ""
-    cancels = "" if points else f" Grey: fewer than {_FEWEST} samples. {_CANCELS}"
+    cancels = "" if points else f" Grey: fewer than {_FEWEST_OF_A_CELL} samples. {_CANCELS}"
     return (
         f"{output.capitalize()} over slip and load: recorded minus simulated force, "
         f"{'each point' if points else 'mean of each cell'}. Strong colour marks where they "
