@@ -47,7 +47,7 @@ def draw(ax: Any, run: pd.DataFrame, tire: TireModel, after: np.ndarray, noise: 
     inputs = {name: run[name].to_numpy() for name in ("slip_angle", "normal_load")}
     before = tire.forces(**inputs, limits="ignore").fy
     degrees, recorded = np.degrees(inputs["slip_angle"]), run["fy"].to_numpy()
-    ax.axhspan(-noise, noise, color="#BBBBBB", alpha=0.6, lw=0, label="noise (one sigma)")
+    ax.axhspan(-noise, noise, color="#A0A0A0", alpha=0.6, lw=0, label="noise (one sigma)")
     for k, (name, simulated) in enumerate((("tire.tir", before), ("with what was found", after))):
         ax.plot(degrees, recorded - simulated, ".", ms=3, color=colour_of(1 - k), label=name)
     ax.set_xlabel("slip angle (deg)")

@@ -80,7 +80,7 @@ def test_a_real_tire_fits_within_one_and_a_half_percent(tydex, version):
     )
     assert np.sqrt(np.mean(residual**2)) / np.abs(tydex["fy"]).max() == pytest.approx(fit.relative_rms["fy"])
     assert fit.model.value("UNLOADED_RADIUS") == pytest.approx(0.29)
-    assert any(text.startswith("no fx measured: PCX1") for text in fit.undetermined)
+    assert any(text.startswith("no Fx measured: PCX1") for text in fit.undetermined)
     assert any(text.startswith("no combined slip: RBY1") for text in fit.undetermined)
 
 

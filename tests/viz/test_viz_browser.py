@@ -149,7 +149,10 @@ def test_the_build_opens_without_a_server(project, tmp_path):
     assert "circular" not in built.stdout
     page = project / "a page #1.html"
     command = [sys.executable, "-m", "tire_pipeline.lineage.one_page", str(project / "build"), str(page)]
+    front = project / "index.html"
+    front.write_text("made before the lineage")
     subprocess.run(command, check=True)
+    assert "Tire pipeline: all reports" in front.read_text()
     moved = Path(tmp_path / "elsewhere.html")
     moved.write_bytes(page.read_bytes())
     with browser(tmp_path) as driver:

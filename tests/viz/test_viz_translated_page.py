@@ -245,7 +245,7 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
         "slip angle (deg)",
         "Fy (kN)",
         "Mz (N m)",
-        "stiffness (kN/rad)",
+        "stiffness (N/deg)",
         "normal load 6 kN",
         "90% band",
     ):
@@ -265,6 +265,20 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
     )
     click.click()
     assert not driver.find_elements("css selector", "tr.detail")
+
+
+def test_what_a_click_opens_fits_a_narrow_screen(driver):
+    size = {"width": 400, "height": 900, "deviceScaleFactor": 1, "mobile": True}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    reset(driver)
+    choose(driver, "verdict", "refused")
+    click_file(driver, "C/c_0007.tir")
+    parts = driver.find_elements("css selector", "td.detail > *, td.detail figure > svg")
+    assert parts
+    assert max(part.rect["x"] + part.rect["width"] for part in parts) <= 400
+    driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    next(b for b in driver.find_elements("css selector", "tr.open button.file")).click()
+    wait(driver, lambda: not driver.find_elements("css selector", "tr.detail"))
 
 
 def test_a_file_that_was_not_translated_shows_its_own_curves(driver):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 UNUSABLE = 1
 """Exit code if the recording cannot be explained."""
 _MOST_DRAWN = 4000
+_LABEL_WIDTH = 16
+"""Letters beside the axis of a panel; a longer label goes on in the next line."""
 _KEYS = ("channel", "unit", "lowest", "median", "highest", "missing")
 """What JSON says of each channel; the first is its name in the file."""
 
@@ -191,26 +194,27 @@ def _page(
 
 
 def _figure(recording: pd.DataFrame) -> tuple[Any, str]:
+    from tire_pipeline.channels import shown_unit
     from tire_pipeline.pages.drawing import colour_of, new_figure
     from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 
-    units = {c.name: c.unit for c in CANONICAL if c.name != "time" and c.name in recording}
+    drawn = [c.name for c in CANONICAL if c.name != "time" and c.name in recording]
     step = max(1, len(recording) // _MOST_DRAWN)
     timed = "time" in recording
     x = recording["time"].to_numpy(dtype=float)[::step] if timed else np.arange(len(recording))[::step]
     steps = np.diff(x, prepend=x[:1])
     gaps = np.flatnonzero(steps > 5.0 * np.median(steps))
     figure, axes = new_figure(
-        len(units), 1, width=9.0, height=1.15 * len(units) + 0.6, squeeze=False, sharex=True
+        len(drawn), 1, width=9.0, height=1.15 * len(drawn) + 0.6, squeeze=False, sharex=True
     )
-    for panel, (name, unit) in zip(axes.ravel(), units.items(), strict=True):
+    for panel, name in zip(axes.ravel(), drawn, strict=True):
         values = recording[name].to_numpy(dtype=float)[::step].copy()
         values[gaps] = np.nan  # no line over a gap
-        if unit == "rad":
-            values, unit = np.degrees(values), "deg"
+        factor, unit, label = shown_unit(name, float(np.nanmax(np.abs(values), initial=0.0)))
         look: Any = {"lw": 0.6} if timed else {"ls": "", "marker": "."}
-        panel.plot(x, values, color=colour_of(0), **look)
-        panel.set_ylabel(f"{name.replace('_', ' ')}\n({unit})", fontsize=8)
+        panel.plot(x, factor * values, color=colour_of(0), **look)
+        panel.set_ylabel(fill(f"{label} ({unit or NO_UNIT})", _LABEL_WIDTH), fontsize=8)
     axes.ravel()[-1].set_xlabel("time (s)" if timed else "point")
     thinned = f" One sample in {step} is drawn." if step > 1 else ""
-    return figure, f"The channels that are known, as read: ISO W axes; angles in degrees.{thinned}"
+    said = "The channels that are known, in ISO W axes. Compare signs and sizes with what the rig did."
+    return figure, said + thinned

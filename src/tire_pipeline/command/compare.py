@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
-from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent
+from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent, three_digits
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -78,7 +78,16 @@ def compared(
     held = [(x, y) for x, y in pairs if not math.isnan(x.value) or not math.isnan(y.value)]
     figures = Grid(
         ("quantity", "A", "B", "change", "unit"),
-        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit or NO_UNIT) for x, y in held],
+        [
+            (
+                x.name,
+                three_digits(x.value),
+                three_digits(y.value),
+                _change(x.value, y.value),
+                x.unit or NO_UNIT,
+            )
+            for x, y in held
+        ],
         f"At {load:,.0f} N, no camber. A dash: no such force, or no peak within the range of the file",
     )
     forces = Grid(

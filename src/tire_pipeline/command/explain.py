@@ -15,7 +15,7 @@ from tire_pipeline.command.options import (
     read_runs,
     reading_options,
 )
-from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish, three_digits
 from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
@@ -131,19 +131,16 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
     )
 
 
-def _rms(value: float) -> float:
-    """Three digits: its 95% interval leaves no more certain."""
-    return float(f"{value:.3g}")
-
-
 def _errors(report: MismatchReport) -> Grid:
+    from tire_pipeline.mismatch.report.report_page import range_of
+
     return Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
             (
                 name.capitalize(),
-                *map(_rms, (fit.noise_floor, fit.rms_before, fit.rms_after)),
-                f"{digits(_rms(fit.rms_after_low))} to {digits(_rms(fit.rms_after_high))}",
+                *map(three_digits, (fit.noise_floor, fit.rms_before, fit.rms_after)),
+                range_of(fit.rms_after_low, fit.rms_after_high),
                 "N m" if name.startswith("m") else "N",
             )
             for name, fit in report.fit.items()
@@ -162,14 +159,16 @@ def _found(effects: list[EffectReport]) -> Grid:
 
 
 def _held_out(fit: HeldOutFit) -> Grid:
+    from tire_pipeline.mismatch.report.report_page import range_of
+
     return Grid(
         ("output", "RMS before", "RMS after", "after, of before (95%)"),
         [
             (
                 n.capitalize(),
-                _rms(e.rms_before),
-                _rms(e.rms_after),
-                f"{e.ratio_low:.2f} to {e.ratio_high:.2f}",
+                three_digits(e.rms_before),
+                three_digits(e.rms_after),
+                range_of(e.ratio_low, e.ratio_high),
             )
             for n, e in fit.errors.items()
         ],

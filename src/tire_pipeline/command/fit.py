@@ -152,6 +152,13 @@ def _row(row: Any) -> tuple[Any, ...]:
     return name, load, camber, int(row.count), row.bias, row.rms, row.largest, row.rms_percent
 
 
+def _certain(value: float, error: float) -> tuple[float, float]:
+    """Return a coefficient with the decimals that two digits of its standard error have; without one, all."""
+    if not math.isfinite(error) or error <= 0.0:
+        return value, error
+    return round(value, 1 - math.floor(math.log10(error))), float(f"{error:.2g}")
+
+
 def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str], target: Path) -> str:
     import pandas as pd
 
@@ -166,7 +173,7 @@ def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str]
     except DomainError:
         parts.append(Figure(*draw_models({target.name: result.model}), heading="The fitted model"))
     table = pd.DataFrame(
-        [(n, result.model.value(n), float(f"{error:.2g}")) for n, error in result.standard_errors.items()],
+        [(n, *_certain(result.model.value(n), error)) for n, error in result.standard_errors.items()],
         columns=["coefficient", "value", "standard error"],
     )
     if result.undetermined:

@@ -144,6 +144,17 @@ def digits(value: Any) -> str:
     return str(value)
 
 
+def three_digits(value: float) -> float:
+    """Return a value rounded to the digits that a force, a stiffness or a friction has for a reader.
+
+    Examples
+    --------
+    >>> three_digits(128062.0), three_digits(0.9273)
+    (128000.0, 0.927)
+    """
+    return float(f"{value:.3g}")
+
+
 def percent(share: float) -> str:
     """Return a share with two digits that matter, and no exponent.
 

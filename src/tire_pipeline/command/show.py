@@ -10,7 +10,7 @@ import click
 
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
-from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish
+from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish, three_digits
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -70,7 +70,11 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     odd = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
     key = Grid(
         ("quantity", "value", "unit"),
-        [(f.name, f.value, f.unit or NO_UNIT) for f in figures if f.value == f.value or "peak" in f.name],
+        [
+            (f.name, three_digits(f.value), f.unit or NO_UNIT)
+            for f in figures
+            if f.value == f.value or "peak" in f.name
+        ],
         "At the nominal load, no camber",
     )
     valid = Grid(("valid for", "from", "to", "unit"), [_range(n, *ends) for n, ends in ranges.items()])
@@ -94,7 +98,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
 def _in_short(figures: list[KeyFigure]) -> list[str]:
     """How stiff the tire is and how well it grips, in a sentence; nothing of what it does not give."""
     known = [
-        f"{figure.name} {digits(figure.value)} {figure.unit}".strip()
+        f"{figure.name} {digits(three_digits(figure.value))} {figure.unit}".strip()
         for figure in figures
         if figure.name in _FIRST and figure.value > 0.0
     ]

@@ -10,14 +10,16 @@ import argparse
 import json
 import re
 from pathlib import Path
+from typing import cast
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
-from tire_pipeline.lineage.descriptions import described
+from tire_pipeline.lineage.descriptions import described, descriptions
 from tire_pipeline.lineage.first_screen import prepared
 from tire_pipeline.lineage.page_policy import with_policy
 from tire_pipeline.pages.visible_text import visible_texts
 from tire_pipeline.reporting.embedded import data_element
+from tire_pipeline.reporting.front import FRONT, front_page
 
 _FETCH = """
 (function () {
@@ -91,9 +93,19 @@ def main() -> None:
     parser.add_argument("page", type=Path)
     parser.add_argument("--project", type=Path, default=Path.cwd())
     arguments = parser.parse_args()
-    page = one_page(arguments.build, arguments.project.resolve())
+    project = arguments.project.resolve()
+    page = one_page(arguments.build, project)
     write_bytes(arguments.page, page.encode())
     print(f"lineage: {arguments.page}")
+    _link(arguments.page, project)
+
+
+def _link(page: Path, project: Path) -> None:
+    """Write the front page beside the lineage again, so that it links it without another run."""
+    front = page.with_name(FRONT)
+    if front.is_file():
+        told = cast("dict[str, str]", descriptions(project)["exact"])
+        write_bytes(front, front_page(front.parent, told).encode())
 
 
 if __name__ == "__main__":

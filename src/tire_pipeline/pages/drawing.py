@@ -47,7 +47,7 @@ def colour_of(index: int) -> str:
 
 
 def new_figure(
-    rows: int = 1, columns: int = 1, *, width: float = 7.0, height: float = 3.6, **options: Any
+    rows: int = 1, columns: int = 1, *, width: float = 9.0, height: float = 3.6, **options: Any
 ) -> tuple[MplFigure, Any]:
     """A figure and its axes in the project's style; no global state, no display.
 

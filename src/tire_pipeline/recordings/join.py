@@ -197,6 +197,7 @@ def _laid_end_to_end(
     laid: list[pd.DataFrame] = []
     joined: list[dict[str, object]] = []
     row, end = 0, 0.0
+    starts: list[str] = []
     for name, frame in parts.items():
         offset = 0.0
         if timed:
@@ -205,13 +206,14 @@ def _laid_end_to_end(
             offset = end + gap - float(np.nanmin(time)) if laid else 0.0
             frame = frame.assign(time=time + offset)
             end = float(np.nanmax(frame["time"]))
+            starts.append(f"{name} (from {float(np.nanmin(frame['time'])):.4g} s)")
         joined.append({"name": name, "first": row, "last": row + len(frame) - 1, "offset": offset})
         row += len(frame)
         laid.append(frame)
     if timed and len(laid) > 1:
         notes.append(
-            f"{len(laid)} recordings were joined in the order {', '.join(parts)}; heat, wear and drift go on "
-            "from one to the next, as if nothing happened between them"
+            f"{len(laid)} recordings were joined in the order {', '.join(starts)}; heat, wear and drift go "
+            "on from one to the next, as if nothing happened between them"
         )
     said: dict[str, list[str]] = {}
     for name, frame in recordings.items():

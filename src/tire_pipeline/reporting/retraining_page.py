@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.files.rows_on_disk import REPORT_ROWS, joined
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.retraining import ModelRegistry
-from tire_pipeline.retraining.drift import DRIFT, PSI_LIMIT, RISK
+from tire_pipeline.retraining.drift import DRIFT, FEWEST_FILES, NEW, PSI_LIMIT, RISK, TOO_FEW
 from tire_pipeline.retraining.ingest import READ
 from tire_pipeline.retraining.release import history_rows
 
@@ -58,6 +58,7 @@ def _comparison(comparison: pd.DataFrame) -> Table:
         heading="Candidate and released model on the same held-out tires",
         caption="Accuracy: share of files whose category is predicted correctly. Balanced: its mean "
         "over the categories, which decides. No held-out tire was in the training of either model.",
+        decimals=3,
     )
 
 
@@ -88,6 +89,7 @@ def _history(registry: ModelRegistry) -> Table:
         _to_the_minute(history_rows(registry.release)).rename(columns=_TITLE_OF_COLUMN),
         heading="History",
         caption="The newest first. A dash: there was no released model to compare with.",
+        decimals=3,
     )
 
 
@@ -109,7 +111,7 @@ def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 
 
 def _decision(counts: Mapping[str, int], outcome: dict[str, Any], registry: ModelRegistry) -> Text:
-    came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
+    came = ", ".join(f"{count:,} {status}" for status, count in counts.items()) or "no change"
     return Text(
         [
             f"{_HAPPENED.get(outcome['event'], outcome['event'])}: {outcome['reason']}.",
@@ -120,24 +122,43 @@ def _decision(counts: Mapping[str, int], outcome: dict[str, Any], registry: Mode
 
 
 def _drift(drift: pd.DataFrame) -> list[Part]:
-    moved = drift[drift["verdict"] == DRIFT]
     heading = "Drift of incoming files, per category"
     if drift.empty:
         return [Text(["Nothing to compare: no incoming files, or none before them."], heading=heading)]
-    seen = f"{len(moved)} of {len(drift)} comparisons show drift."
+    tested = drift[drift["psi"].notna()]
+    untold = _not_compared(drift[drift["psi"].isna()])
+    if tested.empty:
+        return [Text(["Nothing can be said.", *untold], heading=heading)]
+    moved = tested[tested["verdict"] == DRIFT]
     said = Text(
         [
-            f"{seen} The values of each feature in the incoming files are compared with those in the "
-            "earlier ones of the same category. Drift: p, adjusted for the number of comparisons, is below "
-            f"{RISK:g}, and the population stability index is above {PSI_LIMIT:g}. Features are Magic "
-            "Formula coefficients at one nominal load unless another representation was chosen."
+            f"{len(moved)} of {len(tested)} comparisons show drift. The values of each feature in the "
+            "incoming files are compared with those in the earlier ones of the same category. Drift: p, "
+            f"adjusted for the number of comparisons, is below {RISK:g}, and the population stability index "
+            f"is above {PSI_LIMIT:g}. Features are Magic Formula coefficients at one nominal load unless "
+            "another representation was chosen.",
+            *untold,
         ],
         heading=heading,
     )
-    shown = moved if len(moved) else drift.nlargest(_MOST_SHOWN, "psi")
+    shown = moved if len(moved) else tested.nlargest(_MOST_SHOWN, "psi")
     fewer = (
         ""
-        if len(moved) or len(shown) == len(drift)
-        else f"The {len(shown)} largest differences of {len(drift)}."
+        if len(moved) or len(shown) == len(tested)
+        else f"The {len(shown)} largest differences of {len(tested)}."
     )
     return [said, Table(shown.rename(columns=_TITLE_OF_COLUMN), caption=fewer)]
+
+
+def _not_compared(drift: pd.DataFrame) -> list[str]:
+    """Say of which categories drift cannot be told, and why."""
+    first = drift.drop_duplicates("category")
+    new = first[first["verdict"] == NEW]["category"]
+    few = first[first["verdict"] == TOO_FEW]
+    counts = [f"{row.category} ({row.incoming} beside {row.earlier:,} earlier)" for row in few.itertuples()]
+    said = []
+    if counts:
+        said.append(f"Too few files to compare, {FEWEST_FILES} on each side are needed: {', '.join(counts)}.")
+    if len(new):
+        said.append(f"New, with nothing to compare: {', '.join(new)}.")
+    return said

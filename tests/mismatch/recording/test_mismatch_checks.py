@@ -10,6 +10,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.words import interval, place
+from tire_pipeline.recordings import join_recordings
 
 
 def bad(recording, what):
@@ -137,6 +138,24 @@ def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
     assert place("normal_load", 4000.0, 5000.0, {}) == "at load between 4 and 5 kN"
     assert interval("time", 757.0, 1057.4) == "time 757 to 1,057 s"
     assert interval("normal_load", 1200.0, 4300.0) == "load 1.2 to 4.3 kN"
+
+
+def test_both_ends_of_a_range_have_the_same_decimals():
+    assert interval("time", 52.9, 60.0) == "time 52.9 to 60.0 s"
+    assert place("time", 22.5, 38.0, {}) == "between 22.5 and 38.0 s"
+    assert interval("time", 0.0523, 96.2) == "time 0.1 to 96.2 s"
+    assert interval("speed", -0.01, 12.3) == "speed 0 to 12.3 m/s"
+    assert interval("normal_load", 2000.0, 4000.0) == "load 2 to 4 kN"
+    assert interval("time", 0.0, 96.2) == "time 0 to 96.2 s"
+
+
+def test_the_seam_of_two_recordings_is_no_gap_in_the_time_line(tire, record):
+    one, two = record(0).iloc[:300], record(1).iloc[:300]
+    notes = prepare(tire, join_recordings({"a": one, "b": two})).notes
+    assert not [note for note in notes if "time line" in note]
+    broken = two.assign(time=two["time"] + 9.0 * (np.arange(300) > 150))
+    (note,) = (n for n in prepare(tire, join_recordings({"a": one, "b": broken})).notes if "time line" in n)
+    assert note == "a gap in the time line of 9.04 s"
 
 
 def test_numbers_that_came_as_text_and_dates_are_read(tire, record):

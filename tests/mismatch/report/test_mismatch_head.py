@@ -157,7 +157,7 @@ def test_an_equation_that_did_not_hold_is_gone_from_head_and_errors():
     ("when", "said"),
     [
         ([(10.0, 20.0)], " (seen between 10 and 20 s),"),
-        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s),"),
+        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30.0 and 41.5 s),"),
         ([(0.0, 80.0)], ","),
         ([], ","),
     ],

@@ -115,6 +115,20 @@ def test_columns_are_in_words_and_what_is_left_out_is_counted():
     assert "/data/tir" not in page
 
 
+def test_categories_with_too_few_files_are_not_counted_as_free_of_drift():
+    drift = pd.DataFrame(
+        {"category": ["A", "A", "N"], "feature": ["PDY1", "PKY1", "PDY1"], "earlier": [1204, 1204, 0]}
+    ).assign(incoming=3, psi=np.nan, ks=np.nan, p_adjusted=np.nan, verdict=[TOO_FEW, TOO_FEW, NEW])
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [1.0]})
+    given = (comparison, {"event": "refused", "reason": "worse"}, ModelRegistry(Release()))
+    page = build_retraining_report([pd.DataFrame(columns=["file", "status", "reason"])], drift, *given)
+    assert "Nothing can be said." in page
+    assert "Too few files to compare, 5 on each side are needed: A (3 beside 1,204 earlier)." in page
+    assert "New, with nothing to compare: N." in page
+    assert "comparisons show drift" not in page
+    assert ">1.000<" in page
+
+
 def test_the_first_files_that_were_not_read_are_shown_and_the_others_counted(monkeypatch):
     monkeypatch.setattr(retraining_page, "REPORT_ROWS", 3)
     status = ["removed", "read", "pending", "read", "removed", "removed", "growing"]

@@ -168,7 +168,7 @@ def _stages(
         for stage in stages:
             names = stage.over(model.family)
             if output not in forces:
-                report.leave(f"no {output} measured", names)
+                report.leave(f"no {output.capitalize()} measured", names)
                 continue
             chosen = given.choose(stage, points, forces[output])
             if chosen.size < given.FEWEST_POINTS and output in TANGENTIAL_FORCES:

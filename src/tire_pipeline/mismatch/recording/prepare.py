@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.lone_points import lone_points
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
-from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time
+from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time, seams
 from tire_pipeline.mismatch.recording.usable import (
     judge,
     leave_out_no_pressure,
@@ -191,7 +191,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = beginnings(time, rows.size, rows)
-    notes += long_gaps(time, start)
+    notes += long_gaps(time, start, seams(recording.attrs.get("joined", ()), rows))
     arrays, time, start, rows = averaged(arrays, time, start, rows)
     arrays, cleaned = (arrays, []) if time is None else _cleaned(tire, arrays, start)
     notes += [c.text() for c in cleaned]

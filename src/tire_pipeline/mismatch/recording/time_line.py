@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -72,12 +73,34 @@ def beginnings(time: Array | None, size: int, rows: Array | None = None) -> Arra
     return start
 
 
-def long_gaps(time: Array | None, start: Array) -> list[str]:
-    """Say how many interruptions are long enough that states are unknown after them."""
+def seams(joined: Sequence[Mapping[str, Any]], rows: Array) -> Array:
+    """Return which samples are the first of a recording that follows another one.
+
+    Parameters
+    ----------
+    joined : sequence of mapping
+        ``attrs["joined"]`` of :func:`tire_pipeline.recordings.join_recordings`; empty for one recording.
+    rows : ndarray of int, shape (n,)
+        Row of the joined recording of each sample, rising.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+    """
+    result = np.zeros(rows.size + 1, bool)
+    result[np.searchsorted(rows, [part["first"] for part in joined[1:]])] = True
+    return result[:-1]
+
+
+def long_gaps(time: Array | None, start: Array, seam: Array) -> list[str]:
+    """Say how many interruptions are long enough that states are unknown after them.
+
+    The time between two recordings that were joined is none: joining them is said by itself.
+    """
     if time is None:
         return []
     steps = np.diff(time)
-    lengths = steps[start[1:]]
+    lengths = steps[start[1:] & ~seam[1:]]
     count = int((lengths > LONG_GAP * np.median(steps)).sum())
     if not count:
         return []

@@ -17,6 +17,11 @@ from tire_pipeline.mismatch.report.words import short_equation
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
+_NO_DATA = "#D4D4D4"
+"""Behind the map: a cell without a mean is not one without a difference, which is white."""
+_FEWEST_OF_A_CELL = 3
+"""Samples of a cell with a mean."""
+_CANCELS = "What differs in both directions within a cell cancels in its mean."
 _HEIGHT_OF_A_BAR = 0.05
 _MARKED_POINTS = 600
 _STEPS_OF_GAP = 5.0
@@ -66,7 +71,7 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
                     label=effect.name.replace("_", " ") if k == 0 else None,
                 )
         floor = s[f"floor_{output}"]
-        axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
+        axes.axhspan(-floor, floor, color="#A0A0A0", alpha=0.6, lw=0, label="noise (1 sigma)")
         few = x.size < _MARKED_POINTS
         look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
         axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
@@ -119,6 +124,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
                 )
             else:
                 mesh = ax.pcolormesh(*edges, values.T, **colours)
+                ax.set_facecolor(_NO_DATA)
             ax.set_title(kind)
             ax.set_xlabel(axis_label(name))
             ax.grid(False)
@@ -132,10 +138,10 @@ def _slip(report: ReportContents, output: str) -> Any:
 
 
 def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
-    """Means over cells with three samples or more."""
+    """Means over the cells with enough samples."""
     count, *_ = np.histogram2d(x, y, list(edges))
     total, *_ = np.histogram2d(x, y, list(edges), weights=values)
-    return np.where(count >= 3, total / np.maximum(count, 1), np.nan)
+    return np.where(count >= _FEWEST_OF_A_CELL, total / np.maximum(count, 1), np.nan)
 
 
 def overview(report: ReportContents) -> Figure:
@@ -158,7 +164,7 @@ def overview(report: ReportContents) -> Figure:
 def _map_caption(report: ReportContents, output: str) -> str:
     points = _slip(report, output).size < _MARKED_POINTS
     faded = "; it should fade from before to after" if report.corrected.changes else ""
-    cancels = "" if points else " What differs in both directions within a cell cancels in its mean."
+    cancels = "" if points else f" Grey: fewer than {_FEWEST_OF_A_CELL} samples. {_CANCELS}"
     return (
         f"{output.capitalize()} over slip and load: recorded minus simulated force, "
         f"{'each point' if points else 'mean of each cell'}. Strong colour marks where they "

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from importlib.resources import files
-from pathlib import PurePath
 from typing import Any
 
 from markupsafe import Markup
@@ -16,7 +15,14 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
 from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
-from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval, short_equation
+from tire_pipeline.mismatch.report.words import (
+    condition,
+    gaussian,
+    in_words,
+    interval,
+    same_decimals,
+    short_equation,
+)
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy
@@ -37,10 +43,10 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
     own = files("tire_pipeline.mismatch.report").joinpath("templates", "report.css").read_text("utf-8")
     style = page_style() + own
     environment.filters |= {"number": number, "percent": percent, "log_evidence": log_evidence}
-    environment.filters |= {"condition": condition, "short_equation": short_equation}
+    environment.filters |= {"condition": condition, "short_equation": short_equation, "to": range_of}
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
     seen, silent = _visible(report.visible)
-    name = ", ".join(PurePath(each).name for each in report.recordings) or "Simulation and recording"
+    name = ", ".join(report.recordings) or "Simulation and recording"
     return environment.get_template("report.html").render(
         report=report,
         title=f"{name}: {report.stated_verdict}",
@@ -79,6 +85,11 @@ def number(value: Any, digits: int = 3) -> str:
     if isinstance(value, float):
         return f"{value:,.0f}" if abs(value) >= 10**digits else f"{value:.{digits}g}"
     return str(value)
+
+
+def range_of(low: float, high: float) -> str:
+    """Return ``52.9 to 60.0``."""
+    return " to ".join(same_decimals(low, high))
 
 
 def log_evidence(value: float | str | None) -> str:

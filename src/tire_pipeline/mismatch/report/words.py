@@ -31,6 +31,43 @@ def _three_digits(value: float) -> str:
     return f"{value:,.0f}" if abs(value) >= 999.5 else f"{value:.3g}"
 
 
+def ends(axis: str, low: float, high: float) -> tuple[str, str]:
+    """Return both ends of a range in the axis' unit, by :func:`same_decimals`; what no rig controls is 0.
+
+    Examples
+    --------
+    >>> ends("time", 52.9, 60.0), ends("normal_load", 2600.0, 7785.0)
+    (('52.9', '60.0'), ('2.60', '7.79'))
+    """
+    factor = shown_unit(axis, max(abs(low), abs(high)))[0]
+    low, high = (0.0 if abs(value) < _FINEST.get(axis, 0.0) else value * factor for value in (low, high))
+    return same_decimals(low, high)
+
+
+def same_decimals(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers with the same decimals: as many as three digits of the larger one need.
+
+    Decimals that both have as zeros are left out.
+
+    Examples
+    --------
+    >>> same_decimals(52.9, 60.0), same_decimals(0.0523, 96.2), same_decimals(0.0, 60.0)
+    (('52.9', '60.0'), ('0.1', '96.2'), ('0', '60'))
+    """
+    size = max(abs(low), abs(high))
+    most = max(2 - int(np.floor(np.log10(size))), 0) if 0.0 < size < np.inf else 0
+    exact = [round(value, most) for value in (low, high)]
+    decimals = next((d for d in range(most) if [round(value, d) for value in exact] == exact), most)
+    a, b = (_with_decimals(value, decimals) for value in (low, high))
+    return a, b
+
+
+def _with_decimals(value: float, decimals: int) -> str:
+    if not np.isfinite(value):
+        return "–"
+    return f"{value:,.{decimals}f}" if round(value, decimals) else "0"
+
+
 def label(axis: str) -> str:
     """Return the name of an axis in words."""
     return shown_unit(axis, 0.0).label
@@ -40,7 +77,7 @@ def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``, or ``speed 22.2 m/s`` where both ends are written alike."""
     size = max(abs(low), abs(high))
     _, unit, name = shown_unit(axis, size)
-    a, b = figure(axis, low, size), figure(axis, high, size)
+    a, b = ends(axis, low, high)
     return f"{name} {a if a == b else f'{a} to {b}'} {unit}".strip()
 
 
@@ -142,7 +179,7 @@ def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, 
     """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
     size = max(abs(low), abs(high))
     _, unit, name = shown_unit(axis, size)
-    a, b = figure(axis, low, size), figure(axis, high, size)
+    a, b = ends(axis, low, high)
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
     if axis == "time":

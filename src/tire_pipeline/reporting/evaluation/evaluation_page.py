@@ -189,7 +189,11 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     ).rename(columns={"accuracy_std": "± accuracy", "f1": "F1", "f1_std": "± F1", "smote": "SMOTE"})
     for name in ("accuracy", "± accuracy", "F1", "± F1"):
         shown[name] = shown[name].round(3)
-    caption = "Accuracy and weighted F1, mean and spread of several trainings."
+    once = shown["trainings"] == 1
+    shown.loc[once, ["± accuracy", "± F1"]] = np.nan
+    caption = "Accuracy and weighted F1, mean and spread of the trainings."
+    if once.any():
+        caption += " A dash: one training has no spread."
     detail = per_class.assign(split=per_class["split"].map(SPLIT_WORDS)).rename(
         columns={"f1": "F1", "rows": "files"}
     )

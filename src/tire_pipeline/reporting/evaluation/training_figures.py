@@ -41,5 +41,5 @@ def learning_figure(curve: pd.DataFrame) -> Figure:
     smooth = curve["reward"].rolling(window, min_periods=1).mean()
     axes.plot(curve["step"], smooth, color=colour_of(0))
     axes.set_xlabel("training steps of all environments")
-    axes.set_ylabel(f"episode reward\n(mean of {window} episodes)")
+    axes.set_ylabel(f"episode reward\n(mean of {window} episodes)" if window > 1 else "episode reward")
     return figure

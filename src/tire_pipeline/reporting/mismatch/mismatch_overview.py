@@ -28,6 +28,7 @@ _EARLIER_REPORTS = (
     "the corrected files that belong to them."
 )
 _NO_ROW = "Open it to see what was found."
+_ALTERNATIVES = " Alternatives: what the recording cannot distinguish from them."
 _FEW_RECORDINGS = 5
 """Up to this many recordings, a run says what was found in each."""
 _CSV = ("tables/mismatch_overview.csv", "Table of the last run (CSV)", "with every recording's summary")
@@ -158,7 +159,7 @@ def _in_one_table(rows: list[dict[str, str]]) -> Table:
     return Table(
         table.rename(columns=_HEADS),
         "Run: when the report was made, for earlier runs. Effects: what the model left out, or the fault of "
-        "the recording. These recordings cannot distinguish them from their alternatives.",
+        f"the recording.{_ALTERNATIVES if 'alternatives' in table else ''}",
         heading="In one table",
         most_rows=1000,
     )

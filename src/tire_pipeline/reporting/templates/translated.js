@@ -274,13 +274,13 @@
     return figure;
   }
   function stiffnessPanel([source, middle, lows, highs]) {
-    const whole = curve => curve.every(value => value !== null) ? curve.map(value => value / 1e3) : null;
+    const whole = curve => curve.every(value => value !== null) ? curve.map(value => value * Math.PI / 180) : null;
     const own = whole(source), moved = whole(middle), low = whole(lows), high = whole(highs);
     if (!own && !moved) return null;
     const xs = data.loads.map(load => load / 1e3);
     const [least, largest] = extent([...[own, moved, low, high].filter(Boolean), [0]]);
     const title = "Cornering stiffness over load";
-    const {svg, x, y} = axes(title, {x: "normal load (kN)", y: "stiffness (kN/rad)"}, [xs[0], xs[xs.length - 1]], Math.max(0, least), largest);
+    const {svg, x, y} = axes(title, {x: "normal load (kN)", y: "stiffness (N/deg)"}, [xs[0], xs[xs.length - 1]], Math.max(0, least), largest);
     if (low && high) {
       const there = path(xs, high, x, y), back = path([...xs].reverse(), [...low].reverse(), x, y);
       svg.append(drawn("path", {d: there + back.replace("M", "L") + "Z", class: "band l0"}));

@@ -304,7 +304,7 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
 
 
 def _truth_figure(both: pd.DataFrame) -> MplFigure:
-    figure, axis = new_figure(width=6.5, height=4.2)
+    figure, axis = new_figure(width=9.0, height=4.2)
     for k, (what, own) in enumerate(both.groupby(both["region"].str.split(",").str[0])):
         bias = 100 * own["bias"]
         ends = np.stack([bias - 100 * own["low"], 100 * own["high"] - bias])

@@ -42,7 +42,7 @@ def learning_figure(results: Results) -> MplFigure | None:
         return None
     algorithms = [name for name in ("PPO", "A2C") if name in set(frame["algorithm"])]
     columns = max(len(algorithms), 1)
-    figure, axes = new_figure(1, columns, width=max(4.6 * columns, 7.0), height=3.6, sharey=True)
+    figure, axes = new_figure(1, columns, width=max(4.6 * columns, 9.0), height=3.6, sharey=True)
     names = list(dict.fromkeys(frame["representation"]))
     for one, algorithm in zip(np.atleast_1d(np.asarray(axes)), algorithms, strict=True):
         _draw_learning(one, frame[frame["algorithm"] == algorithm], names)
@@ -120,9 +120,9 @@ def force_figure(results: Results, representation: str) -> MplFigure | None:
 
 def _label_grid(figure: MplFigure, grid: Any) -> None:
     for one in grid[-1]:
-        one.set_xlabel("slip angle / deg", fontsize=8)
+        one.set_xlabel("slip angle (deg)", fontsize=8)
     for one in grid[:, 0]:
-        one.set_ylabel("lateral force / kN", fontsize=8)
+        one.set_ylabel("lateral force (kN)", fontsize=8)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
 
@@ -150,7 +150,7 @@ def load_figure(results: Results, column: str, label: str, scale: float) -> MplF
         target = part[(part["kind"] == "target") & (part["category"] == suppliers[0])]
         one.plot(target["normal_load"] / 1e3, target[column] / scale, color="black", lw=2, label="target")
         one.set_title(in_figure(tire), fontsize=9)
-        one.set_xlabel("normal load / kN")
+        one.set_xlabel("normal load (kN)")
     first = np.asarray(axes)[0, 0]
     first.set_ylabel(label)
     handles, labels = first.get_legend_handles_labels()
@@ -184,7 +184,7 @@ AGENT_FIGURES: dict[str, Callable[[Results], MplFigure | None]] = {
     "figure_5_9": learning_figure,
     **{name: _force(representation) for name, representation in FORCE_FIGURES.items()},
     "figure_5_14": lambda results: load_figure(
-        results, "cornering_stiffness", "cornering stiffness / (kN/rad)", 1e3
+        results, "cornering_stiffness", "cornering stiffness (kN/rad)", 1e3
     ),
     "figure_5_15": lambda results: load_figure(results, "peak_friction", "peak friction", 1.0),
     "figure_5_16": action_figure,

@@ -51,7 +51,7 @@ def dataset_figure(results: Results) -> MplFigure:
     """All files of each category, before they are split (Figure 4.1)."""
     counts = results["class_counts"]
     part = counts[counts["split"] == SPLITS[0]]
-    figure, axes = new_figure(width=6.0, height=3.0)
+    figure, axes = new_figure(width=9.0, height=3.0)
     one: Any = axes
     one.bar(np.arange(len(part)), part["all"], 0.8, color=colour_of(0))
     name_ticks(one.xaxis, part["category"])
@@ -95,7 +95,7 @@ def score_figure(frame: pd.DataFrame, over: str, label: str, *, spread: bool = F
     spread : bool
         Show one standard deviation, from ``accuracy_std``.
     """
-    figure, axes = new_figure(width=7.0, height=3.3)
+    figure, axes = new_figure(width=9.0, height=3.3)
     one: Any = axes
     for number, split in enumerate(SPLITS):
         part = frame[frame["split"] == split].sort_values(over)
@@ -109,6 +109,7 @@ def score_figure(frame: pd.DataFrame, over: str, label: str, *, spread: bool = F
             low, high = part["accuracy"] - part["accuracy_std"], part["accuracy"] + part["accuracy_std"]
             one.fill_between(part[over], low, high, color=colour, alpha=0.15, lw=0)
     one.set_xlabel(label)
+    one.xaxis.get_major_locator().set_params(integer=True)
     one.set_ylabel("accuracy, weighted F1")
     one.legend(fontsize=8)
     return figure

@@ -7,7 +7,7 @@ import pandas as pd
 
 from tire_pipeline.reporting import Text
 from tire_pipeline.thesis.pages.page_agents import rising
-from tire_pipeline.thesis.pages.words import action_in_words, listed, number, rank_agreement
+from tire_pipeline.thesis.pages.words import action_in_words, listed, rank_agreement
 from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds, over_trainings
 
 QUESTIONS = (
@@ -102,8 +102,8 @@ def _translate(results: Results) -> list[str]:
         lines.append(
             f"Set {name}: {some} of {len(wide)} configurations beat doing nothing on some metric (2 of 48 in "
             f"the thesis), {all_three} on all three (none in the thesis). The best average is "
-            f"{number(float(wide['mean'].min()))} ({which}); the target measuring again reaches "
-            f"{number(float(own))}."
+            f"{wide['mean'].min():.2f} ({which}); the target measuring again reaches "
+            f"{own:.2f}."
         )
     last = ratios[ratios["set"] == list(dict.fromkeys(ratios["set"]))[-1]]
     none = last.pivot(index=CELL, columns="metric", values="value")["mean"].min() >= BETTER

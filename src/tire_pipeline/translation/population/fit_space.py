@@ -6,6 +6,7 @@ Noise shows in files of one tire in one category. What is a tire's own is what c
 from __future__ import annotations
 
 import logging
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -156,7 +157,7 @@ def _fit_part(
     own = location - known @ np.linalg.lstsq(known, location, rcond=None)[0]
     between = np.atleast_2d(np.cov(np.clip(own, *np.quantile(own, [0.01, 0.99], axis=0)).T))
     usual = np.abs(over) < _NOMINAL
-    within = _noise_covariance((scores - location[cell])[usual], cell[usual])
+    within = noise_covariance((scores - location[cell])[usual], cell[usual])
     if within is None:
         within = _NOISE_SHARE * between
     within += np.eye(len(within)) * 1e-4 * max(np.trace(between), 1e-6)
@@ -196,10 +197,21 @@ def _robust_location(scores: np.ndarray, cell: np.ndarray) -> np.ndarray:
     return location
 
 
-def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
-    """Covariance of one file about its cell without worn and odd ones; None if too few repeat.
+def noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
+    """Return the covariance of one file about its cell, without worn and odd ones.
 
-    Zero where most files of a cell are alike: copies, or files without coefficients for these features.
+    Parameters
+    ----------
+    apart : ndarray, shape (n, k)
+        Each file's scores less the mean of its cell.
+    cell : ndarray of int, shape (n,)
+        Number of each file's cell.
+
+    Returns
+    -------
+    ndarray, shape (k, k), or None
+        None if too few files repeat. Zero where most files of a cell are alike: copies, or files without
+        coefficients for these features.
     """
     from sklearn.covariance import MinCovDet
 
@@ -209,7 +221,9 @@ def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
         return None
     lost = 1.0 - 1.0 / count[cell[several]].mean()
     try:
-        robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
+        with warnings.catch_warnings():  # files that are nearly alike: what was found best so far is kept
+            warnings.filterwarnings("ignore", message="Determinant has increased|The covariance matrix")
+            robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
     except ValueError as error:
         if "equal to 0" not in str(error):
             raise

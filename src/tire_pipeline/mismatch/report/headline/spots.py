@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.report.contents import EffectReport
-from tire_pipeline.mismatch.report.words import figure, newtons, place
+from tire_pipeline.mismatch.report.words import ends, newtons, place
 
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
@@ -35,7 +35,7 @@ def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
     shows = sum(b - a for a, b in effect.when)
     if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
         return ""
-    return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
+    return "between " + ", ".join("{} and {} s".format(*ends("time", a, b)) for a, b in effect.when)
 
 
 def spot_of(
