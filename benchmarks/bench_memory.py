@@ -2,7 +2,8 @@
 
 Counted is what Python and numpy take at once (tracemalloc) in the run's own process.
 
-Run: python benchmarks/bench_memory.py [--files 5000 20000] [--only translate]
+Run: python benchmarks/bench_memory.py [--files 5000 20000] [--only look]
+     PYTHONPATH=other/src python benchmarks/bench_memory.py --only look --before    # of a former version
      python benchmarks/bench_memory.py --write    # into docs/how-to/cluster.md, nothing measured
 """
 
@@ -26,7 +27,6 @@ from doc_tables import markdown, write_between
 
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import (
-    ComputedFolderDataset,
     CsvTableDataset,
     FramePartsDataset,
     HtmlPageDataset,
@@ -44,7 +44,7 @@ from tire_pipeline.translation.chosen_files import choose_files
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.translated_block import BAND_COLUMNS, TranslatedPart, packed_part
-from tire_pipeline.translation.translated_folder import join_translated, translate_each
+from tire_pipeline.translation.translated_folder import TRANSLATED_TOGETHER, join_translated, translate_each
 
 ROOT = Path(__file__).resolve().parents[1]
 STORED = ROOT / "tests/data_of_0_1"
@@ -71,29 +71,36 @@ def manifest(count: int, place: Path) -> Callable[[], None]:
     return run
 
 
-def translate(count: int, place: Path) -> Callable[[], None]:
-    """``translate`` from the look at the folder to its page, but for the work of the tasks.
-
-    In their place made-up parts are stored. Each file was translated, and has little beside its name there.
-    """
+def look(count: int, place: Path) -> Callable[[], None]:
+    """``translate`` looks at the folder, and divides the files into tasks."""
     for number in range(count):
         file = place / f"tir/{'ABCEF'[number % 5]}/tire_{number:08d}.tir"
         file.parent.mkdir(parents=True, exist_ok=True)
         file.touch()
-    translator, _ = translator_state(STORED / "06_models/translator.npz")
     (training,) = STORED.glob("03_primary/normalized_table.parquet/*/*.parquet")
-    return partial(_translate, str(place), dict(translator), pd.read_parquet(training))
+    table, asked = pd.read_parquet(training), TranslateParameters()
+
+    def run() -> None:
+        chosen = choose_files(TirFolderDataset(path=str(place / "tir")).load(), asked)
+        translate_each(_translator(), chosen, table, asked, NormalizeParameters(), 0)
+
+    return run
 
 
-def _translate(place: str, translator: dict[str, Any], training: pd.DataFrame) -> None:
+def join(count: int, place: Path) -> Callable[[], None]:
+    """``translate`` joins what its tasks gave (made up here), and writes files, report, tables and page."""
+    parts: dict[str, Callable[[], bytes]] = {}
+    for start in range(0, count, TRANSLATED_TOGETHER):
+        some = range(start, min(start + TRANSLATED_TOGETHER, count))
+        stored = place / f"{start}.zip"
+        stored.write_bytes(_made_part([f"{'ABCEF'[number % 5]}/tire_{number:08d}.tir" for number in some]))
+        parts[stored.name] = stored.read_bytes
+    return partial(_join, str(place), parts)
+
+
+def _join(place: str, parts: dict[str, Callable[[], bytes]]) -> None:
     asked = TranslateParameters()
-    chosen = choose_files(TirFolderDataset(path=f"{place}/tir").load(), asked)
-    tasks = translate_each(translator, chosen, training, asked, NormalizeParameters(), 0)
-    blocks = ComputedFolderDataset(path=f"{place}/blocks")
-    blocks.save({name: partial(_made_part, list(task.files)) for name, task in tasks.items()})
-    del chosen, tasks
-    parts = blocks.load()
-    files, report, *tables, protocols = join_translated(parts, translator, asked)
+    files, report, *tables, protocols = join_translated(parts, _translator(), asked)
     TextFolderDataset(path=f"{place}/translated").save(files)
     stored = ReportPartsDataset(filepath=f"{place}/report/index.json")
     stored.save(report)
@@ -102,6 +109,10 @@ def _translate(place: str, translator: dict[str, Any], training: pd.DataFrame) -
         FramePartsDataset(filepath=f"{place}/{number}/index.json").save(table)
     page, _ = translate_page(stored.load(), parts, protocols, [], asked, "D")
     HtmlPageDataset(filepath=f"{place}/page.html").save(page)
+
+
+def _translator() -> dict[str, Any]:
+    return dict(translator_state(STORED / "06_models/translator.npz")[0])
 
 
 def _made_part(files: list[str]) -> TranslatedPart:
@@ -154,7 +165,8 @@ def overview(count: int, place: Path) -> Callable[[], None]:
 
 
 STEPS = {
-    "translate": (translate, "`translate`: from the look at the folder to the page", "file"),
+    "look": (look, "`translate`: looks at the folder", "file"),
+    "join": (join, "`translate`: writes files, report, tables and page", "translated file"),
     "manifest": (manifest, "`retrain`: reads and stores its manifest", "file"),
     "splits": (splits, "`bin`: writes `splits`, and reads them again", "training file"),
     "overview": (overview, "`explain_mismatch`: notes and lists what it found", "recording"),
@@ -178,30 +190,43 @@ def table(found: dict[str, Any]) -> str:
     """The table of the documentation."""
     rows = []
     for step, (_, does, what) in STEPS.items():
-        if step not in found:
+        if "files" not in found.get(step, {}):
             continue
         few, many = found[step]["files"]
-        less, most = found[step]["most_bytes"]
-        grows = f"{max(0.0, most - less) / (many - few) / 1e3:.2f} kB"
-        rows.append([does, grows, what, f"{few:,} and {many:,}, {found[step]['date']}"])
-    return markdown(["what", "most memory grows by", "for every", "measured on"], rows)
+        before = _growth(found[step]["before"]) if "before" in found[step] else "–"
+        measured = f"{few:,} and {many:,}, {found[step]['date']}"
+        rows.append([does, _growth(found[step]), before, what, measured])
+    return markdown(["what", "most memory grows by", "before", "for every", "measured on"], rows)
+
+
+def _growth(found: dict[str, Any]) -> str:
+    few, many = found["files"]
+    less, most = found["most_bytes"]
+    return f"{max(0.0, most - less) / (many - few) / 1e3:.2f} kB"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--files", type=int, nargs=2, default=(5_000, 20_000))
     parser.add_argument("--only", choices=list(STEPS), help="measure this step; the others stay as they were")
+    parser.add_argument("--before", action="store_true", help="what is imported is a former version")
     parser.add_argument("--write", action="store_true", help="only put the table into the documentation")
     asked = parser.parse_args()
     if asked.write:
         write_between(PAGE, "<!-- bench_memory -->", table(json.loads(OUT.read_text())))
         return
-    found = json.loads(OUT.read_text()) if asked.only else {}
+    found = json.loads(OUT.read_text()) if OUT.exists() else {}
     for step, (make, _, _) in STEPS.items():
         if asked.only not in (None, step):
             continue
+        most_bytes(make, 100)  # what is imported and compiled once does not count
         sizes = [most_bytes(make, count) for count in asked.files]
-        found[step] = {"files": list(asked.files), "most_bytes": sizes, "date": time.strftime("%Y-%m-%d")}
+        new = {"files": list(asked.files), "most_bytes": sizes, "date": time.strftime("%Y-%m-%d")}
+        earlier = found.get(step, {})
+        if asked.before:
+            found[step] = {**earlier, "before": new}
+        else:
+            found[step] = {**new, **({"before": earlier["before"]} if "before" in earlier else {})}
     write_bytes(OUT, json.dumps(found, indent=1).encode())
     print(table(found))
 
