@@ -60,7 +60,7 @@ TRANSLATION_TYPES = {
 }
 """Columns of the report of all files, and their types: :class:`.result.TranslationResult`."""
 _IN_ORDER = "from rows order by unreadable, file"
-_TRANSLATED = "from rows where part is not null"
+_FROM_TRANSLATED = "from rows where part is not null"
 _REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"
 
 
@@ -257,10 +257,10 @@ class TranslatedTexts(Mapping[str, Callable[[], bytes]]):
 
     def __iter__(self) -> Iterator[str]:
         """Names, part by part."""
-        return (file for (file,) in self._rows.do(f"select file {_TRANSLATED} order by part, file"))
+        return (file for (file,) in self._rows.do(f"select file {_FROM_TRANSLATED} order by part, file"))
 
     def __len__(self) -> int:
-        return int(self._rows.do(f"select count(*) {_TRANSLATED}").fetchone()[0])
+        return int(self._rows.do(f"select count(*) {_FROM_TRANSLATED}").fetchone()[0])
 
     def _text(self, part: int, file: str) -> bytes:
         if self._last != part:
