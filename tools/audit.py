@@ -25,6 +25,7 @@ from packaging.version import InvalidVersion, Version
 
 CLEAN, VULNERABLE, NOT_RUN, STALE = 0, 1, 2, 3
 MOST_DAYS = 90
+_BEGIN_OF_ZIP = b"PK"
 UNTOLD = "its versions cannot be compared; look it up"
 
 
@@ -111,6 +112,8 @@ def _documents(place: Path) -> Iterator[Any]:
             with zipfile.ZipFile(place) as archive:
                 yield from (json.loads(archive.read(n)) for n in archive.namelist() if n.endswith(".json"))
         else:
+            if place.is_file() and place.read_bytes()[:2] == _BEGIN_OF_ZIP:
+                raise NotRun(f"{place} is no whole zip archive -> fetch it again")
             files = sorted(place.rglob("*.json")) if place.is_dir() else [place]
             yield from (json.loads(_read(file)) for file in files)
     except (OSError, ValueError, zipfile.BadZipFile) as error:
@@ -147,7 +150,9 @@ def _of_safety_db(document: dict[str, Any]) -> Iterator[Advisory]:
 
 
 def _of_osv(record: dict[str, Any]) -> Iterator[Advisory]:
-    for affected in [] if "withdrawn" in record else record["affected"]:
+    if "id" not in record:
+        raise KeyError("id")
+    for affected in [] if "withdrawn" in record else record.get("affected", []):  # optional in OSV
         package = affected.get("package", {})
         if package.get("ecosystem") == "PyPI":
             text = record.get("summary") or record.get("details", "")

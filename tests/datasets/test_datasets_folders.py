@@ -3,12 +3,15 @@
 import os
 import subprocess
 import sys
+import tracemalloc
+from collections.abc import Mapping
 
 import pytest
 from kedro.io import DatasetError
 
 from tire_pipeline.datasets import HtmlPageDataset, TextFolderDataset, TirFolderDataset
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.folder_walk import walk
 
 
@@ -89,6 +92,46 @@ def test_a_failed_write_leaves_the_old_folder(tmp_path):
         dataset.save({"b": "new", "c": None})
     assert dataset.load() == {"a": b"old"}
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_added_texts_stay_beside_earlier_ones_of_any_name(tmp_path):
+    """A name with a character that ends a line elsewhere was listed in two pieces, and never taken away."""
+    dataset = TextFolderDataset(path=str(tmp_path / "out"))
+    odd = "A/two\u2028lines\x85.tir"
+    dataset.save({odd: "1", "B/two.tir": "2", "B/three.tir": "3"})
+    dataset.save(AddedFiles({"C/four.tir": "4", "B/two.tir": "22", "never/there.tir": None}))
+    assert dict(dataset.load()) == {odd: b"1", "B/three.tir": b"3", "B/two.tir": b"22", "C/four.tir": b"4"}
+    dataset.save(AddedFiles({odd: None, "B/three.tir": None}))
+    assert dict(dataset.load()) == {"B/two.tir": b"22", "C/four.tir": b"4"}
+    marker = (tmp_path / "out" / ".made_by_tire_pipeline").read_text(encoding="utf-8")
+    assert marker.split("\n")[1:] == ["B/two.tir", "C/four.tir", ""]
+
+
+class ManyNames(Mapping):
+    """Names of 200 bytes, which are made when they are asked for."""
+
+    def __getitem__(self, name):
+        return lambda: b""
+
+    def __iter__(self):
+        return (f"A/{number:0196d}.tir" for number in range(len(self)))
+
+    def __len__(self):
+        return 3_000
+
+
+def test_the_names_of_the_texts_are_not_in_memory_together(tmp_path):
+    dataset = TextFolderDataset(path=str(tmp_path / "out"))
+    dataset.save({"a": "1"})
+    names = 200 * len(ManyNames())
+    tracemalloc.start()
+    try:
+        dataset.save(ManyNames())
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert most < names
+    assert sum(1 for _ in (tmp_path / "out" / "A").iterdir()) == len(ManyNames())
 
 
 def test_a_failed_page_leaves_the_old_page(tmp_path):

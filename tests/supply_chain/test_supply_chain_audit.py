@@ -88,6 +88,12 @@ def test_withdrawn_advisories_and_those_on_other_languages_do_not_count(tmp_path
     assert run(tmp_path, withdrawn, record("jinja2", ecosystem="npm", **everything), OTHER)[0] == 0
 
 
+def test_a_record_that_names_no_package_does_not_stop_the_others(tmp_path):
+    """OSV allows a record without ``affected``; the audit took the whole database for something else."""
+    without = {name: value for name, value in OTHER.items() if name != "affected"}
+    assert run(tmp_path, without, OTHER)[0] == 0
+
+
 def test_over_90_days_is_stale_and_what_it_finds_is_said_all_the_same(tmp_path):
     old = {**OTHER, "modified": record("x", days=91)["modified"]}
     code, said = run(tmp_path, old)
@@ -121,6 +127,7 @@ def test_a_zip_as_osv_gives_it_and_the_database_of_a_package(tmp_path):
     [
         (None, "cannot be read"),
         ("{", "no advisory database"),
+        ("PK\x03\x04 and no more", "no whole zip archive -> fetch it again"),
         ("[]", "neither OSV nor Safety DB"),
         ('{"a": 1}', "neither OSV nor Safety DB"),
         (json.dumps(record("jinja2", ecosystem="npm")), "no advisory on a Python package"),

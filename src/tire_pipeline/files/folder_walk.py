@@ -69,6 +69,7 @@ def walk(folder: str | os.PathLike[str], wanted: Callable[[str], bool]) -> Found
         search.follow(search.folder_links.pop(min(search.folder_links)))
     search.add_linked_files()
     found = search.found
+    search.real_files.clear()
     found.files = dict(sorted(found.files.items()))
     return found
 
@@ -234,7 +235,8 @@ class _WalkedEntry:
     real: str
 
     def inner(self, name: str) -> _WalkedEntry:
-        path, real = os.path.join(self.path, name), os.path.join(self.real, name)
+        path = os.path.join(self.path, name)
+        real = path if self.path == self.real else os.path.join(self.real, name)  # one text for both
         return _WalkedEntry(self.name + shown_name(name), path, real)
 
     def as_folder(self) -> _WalkedEntry:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fnmatch import fnmatch
+from itertools import islice
 
 from tire_pipeline.errors import DomainError, did_you_mean
 from tire_pipeline.magic_formula import TireModel
@@ -40,12 +41,12 @@ def choose_files(
                     pattern, [*folders, *files_to_translate], f"suppliers are {', '.join(folders[:20])}"
                 ),
             )
-    chosen = {
-        file: load
+    chosen = (
+        (file, load)
         for file, load in files_to_translate.items()
         if not only or any(_matches(file, pattern) for pattern in only)
-    }
-    return dict(list(chosen.items())[: parameters.trials or None])
+    )
+    return dict(islice(chosen, parameters.trials or None))
 
 
 def _matches(file: str, pattern: str) -> bool:

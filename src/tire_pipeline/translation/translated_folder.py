@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -60,6 +60,7 @@ TRANSLATION_TYPES = {
 }
 """Columns of the report of all files, and their types: :class:`.result.TranslationResult`."""
 _IN_ORDER = "from rows order by unreadable, file"
+_FROM_TRANSLATED = "from rows where part is not null"
 _REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"
 
 
@@ -140,7 +141,7 @@ def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> JudgingTran
 def join_translated(
     parts: Parts, translator: dict[str, Any], parameters: TranslateParameters
 ) -> tuple[
-    dict[str, Callable[[], bytes] | None],
+    Mapping[str, Callable[[], bytes] | None],
     FramesOfRows,
     list[Callable[[], pd.DataFrame]],
     list[Callable[[], pd.DataFrame]],
@@ -149,7 +150,7 @@ def join_translated(
 ]:
     """Join what was translated: files, report and tables.
 
-    Of all files only the names of the translated ones are in memory.
+    Nothing of each file stays in memory, unless only some of them were asked for: then their names do.
 
     Parameters
     ----------
@@ -162,7 +163,7 @@ def join_translated(
 
     Returns
     -------
-    files : dict
+    files : mapping
         The translated ``.tir`` files, no others, by the function that reads each. If not all files were asked
         for they are :class:`.AddedFiles`, with None for each of those asked for that was not translated.
     report : iterable of DataFrame
@@ -181,25 +182,31 @@ def join_translated(
     DomainError
         If not one file could be read.
     """
-    files, last = dict[str, Callable[[], bytes] | None](), _LastTexts()
-    rows, read = RowsOnDisk([*TRANSLATION_TYPES, "unreadable"]), list[Callable[[], bytes]]()
+    rows, read = RowsOnDisk([*TRANSLATION_TYPES, "unreadable", "part"]), list[Callable[[], bytes]]()
     for load in track(parts.values(), "joining what was translated", total=len(parts)):
         part = load()
-        rows.add((*map(row.get, TRANSLATION_TYPES), True) for row in unreadable_in(part))
+        rows.add((*map(row.get, TRANSLATION_TYPES), True, None) for row in unreadable_in(part))
         if has_tables(part):
+            rows.add(_rows_of(part, len(read)))
             read.append(load)
-            rows.add((*row, False) for row in plain_rows(table_in(part, "report")[[*TRANSLATION_TYPES]]))
-            files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     _tell_unreadable(rows, any_read=bool(read))
+    files: Mapping[str, Callable[[], bytes] | None] = TranslatedTexts(rows, read)
     if parameters.restricted:
         names = (name for (name,) in rows.do(f"select file {_IN_ORDER}"))
-        files = AddedFiles(dict.fromkeys(names) | files)
+        files = AddedFiles(dict.fromkeys(names) | dict(files))
     protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
     )
     report = FramesOfRows(rows, _REPORT_QUERY, TRANSLATION_TYPES)
     return files, report, sources, coefficients, bands, protocols
+
+
+def _rows_of(part: bytes, number: int) -> Iterator[tuple[Any, ...]]:
+    """Rows of a part's files that were read; of the translated ones with the number of the part."""
+    translated = set(translated_in(part))
+    for row in plain_rows(table_in(part, "report")[[*TRANSLATION_TYPES]]):
+        yield *row, False, number if row[0] in translated else None
 
 
 def _tell_unreadable(rows: RowsOnDisk, *, any_read: bool) -> None:
@@ -221,14 +228,41 @@ def _table_of(load: Callable[[], bytes], name: str) -> Callable[[], pd.DataFrame
     return lambda: table_in(load(), name)
 
 
-class _LastTexts:
-    """Texts of the part that was read last: they are written part by part."""
+class TranslatedTexts(Mapping[str, Callable[[], bytes]]):
+    """The translated files by the function that reads each; their names are on the disk.
 
-    def __init__(self) -> None:
-        self._load: Callable[[], bytes] | None = None
+    They come part by part, and of their texts those of the part that was read last are in memory.
+
+    Parameters
+    ----------
+    rows : RowsOnDisk
+        Every ``file``, with the number of its ``part`` if it was translated.
+    parts : sequence of callable
+        Give what became of the files of each part.
+    """
+
+    def __init__(self, rows: RowsOnDisk, parts: Sequence[Callable[[], bytes]]) -> None:
+        rows.do("create index by_part on rows (part, file) where part is not null")
+        rows.do("create index by_file on rows (file)")
+        self._rows, self._parts = rows, parts
+        self._last: int | None = None
         self._texts: dict[str, bytes] = {}
 
-    def text(self, load: Callable[[], bytes], file: str) -> bytes:
-        if self._load is not load:
-            self._load, self._texts = load, texts_in(load())
+    def __getitem__(self, file: str) -> Callable[[], bytes]:
+        """The function that reads a file."""
+        found = self._rows.do("select part from rows where file = ? and part is not null", (file,)).fetchone()
+        if found is None:
+            raise KeyError(file)
+        return partial(self._text, found[0], file)
+
+    def __iter__(self) -> Iterator[str]:
+        """Names, part by part."""
+        return (file for (file,) in self._rows.do(f"select file {_FROM_TRANSLATED} order by part, file"))
+
+    def __len__(self) -> int:
+        return int(self._rows.do(f"select count(*) {_FROM_TRANSLATED}").fetchone()[0])
+
+    def _text(self, part: int, file: str) -> bytes:
+        if self._last != part:
+            self._last, self._texts = part, texts_in(self._parts[part]())
         return self._texts[file]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -25,6 +25,7 @@ from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote
+from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.progress import track
 
 _LONGEST_NAME = 255
@@ -91,26 +92,24 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], Mapping[st
         """Write all files, or none."""
         self.check()
         keep = self._keep or isinstance(data, AddedFiles)
-        texts, gone = parted({str(inside(name)): text for name, text in data.items()}, keep=keep)
         if is_remote(self._path):
+            texts, gone = parted({str(inside(name)): text for name, text in data.items()}, keep=keep)
             text_objects.save(Objects(self._path), texts, gone=gone, keep=keep)
             return
         folder = Path(self._path)
-        earlier = made_here(folder) if keep else set()
         with replaced_folder(folder) as temporary:
+            made = _NamesOnDisk()
             if keep and folder.exists():
                 shutil.copytree(folder, temporary, dirs_exist_ok=True)
-            for name in earlier & gone:
-                (temporary / name).unlink(missing_ok=True)
-            for name, text in track(texts.items(), f"writing {folder.name}", total=len(texts)):
-                target = temporary / name
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(as_bytes(text))
+                made.add_all(_names_of_marker(folder))
+            for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
+                _write_or_remove(temporary, str(inside(name)), text, made, keep=keep)
             for name in NEVER_DELETED:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
-            made = sorted({*texts, *(earlier - gone)})
-            (temporary / MARKER).write_text("\n".join([MARKER_HEAD, *made, ""]), encoding="utf-8")
+            with (temporary / MARKER).open("w", encoding="utf-8", newline="\n") as marker:
+                marker.write(f"{MARKER_HEAD}\n")
+                marker.writelines(f"{name}\n" for name in made)
 
     def _exists(self) -> bool:
         if is_remote(self._path):
@@ -127,10 +126,51 @@ def _belongs_to_user(folder: Path) -> bool:
 
 def made_here(folder: Path) -> set[str]:
     """Paths, relative to a folder, of the files that this project has put there; read from its marker."""
+    return set(_names_of_marker(folder))
+
+
+def _names_of_marker(folder: Path) -> Iterator[str]:
     marker = folder / MARKER
-    if not marker.is_file():
-        return set()
-    return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()[1:])
+    if marker.is_file():
+        with marker.open(encoding="utf-8", errors="replace", newline="\n") as lines:
+            next(lines, None)
+            yield from (line.removesuffix("\n") for line in lines)
+
+
+def _write_or_remove(
+    folder: Path, name: str, text: Content | None, made: _NamesOnDisk, *, keep: bool
+) -> None:
+    """Write a text; where it is None, take the file of an earlier run away, if there is one."""
+    target = folder / name
+    if text is not None:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(as_bytes(text))
+        made.add_all([name])
+        return
+    if not keep:
+        raise TypeError(f"there is nothing to encode for {name!r}")
+    if made.removed(name):
+        target.unlink(missing_ok=True)
+
+
+class _NamesOnDisk:
+    """Names of files, each once: those of a million files are not in memory."""
+
+    def __init__(self) -> None:
+        self._rows = RowsOnDisk(["name"])
+        self._rows.do("create unique index by_name on rows (name)")
+
+    def add_all(self, names: Iterable[str]) -> None:
+        for name in names:
+            self._rows.do("insert or ignore into rows values (?)", (name,))
+
+    def removed(self, name: str) -> bool:
+        """Take a name out; whether it was there."""
+        return self._rows.do("delete from rows where name = ?", (name,)).rowcount > 0
+
+    def __iter__(self) -> Iterator[str]:
+        """Sorted."""
+        return (name for (name,) in self._rows.do("select name from rows order by name"))
 
 
 def made_at(path: str) -> set[str]:

@@ -78,6 +78,8 @@ class TirFolderDataset(PartitionedDataset):
         partitions: dict[str, Callable[[], Any]] = {
             name: TirLoader(path) for name, path in found.files.items()
         }
+        if not found.aside:
+            return partitions
         for name, reason in found.aside.items():
             partitions[name] = Refused(os.path.join(self._path, name), reason)
         return dict(sorted(partitions.items()))
@@ -109,9 +111,9 @@ def _is_tir(name: str) -> bool:
     return name.lower().endswith(".tir")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class TirLoader:
-    """Reads one file.
+    """Reads one file; a run holds one for each of its files, so it is small.
 
     Attributes
     ----------
