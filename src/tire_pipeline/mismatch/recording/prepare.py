@@ -111,11 +111,19 @@ def _on_time(time: Array | None) -> list[str]:
 
 
 def _check_what_is_left(left: int, out: int) -> None:
-    if left < LEAST_POINTS:
+    if left < LEAST_POINTS and out:
         raise RecordingError(
-            f"after taking out {out} samples with a stuck or clipped channel only {left} are left",
+            f"after taking out {out} samples with a stuck or clipped channel, or in which the wheel stands, "
+            f"only {left} are left",
             todo="record again",
         )
+
+
+def _part(
+    kept: Array, arrays: Mapping[str, Array], time: Array | None
+) -> tuple[dict[str, Array], Array | None]:
+    """Return some samples, by number or by bool, shape (n,)."""
+    return {n: a[kept] for n, a in arrays.items()}, None if time is None else time[kept]
 
 
 def _zeros(arrays: dict[str, Array], count: int) -> list[str]:
@@ -157,10 +165,10 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         _bridge(arrays, notes)
     notes += _on_time(time)
     rows = _usable(arrays, time, notes)
-    still = standing({n: a[rows] for n, a in arrays.items()}, notes)
-    still, rows = rows[still], rows[~still]
-    arrays = {n: a[rows] for n, a in arrays.items()}
-    time = None if time is None else time[rows]
+    arrays, time = _part(rows, arrays, time)
+    still = standing(arrays, notes)
+    at_rest, rows = rows[still], rows[~still]
+    arrays, time = _part(~still, arrays, time)
     beside = None
     if tire is None:
         tire, beside = stand_in(arrays)
@@ -170,16 +178,14 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         repair(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool), {})
     )
     leave_out_no_pressure(recording, arrays, notes)
-    if bad.any():
-        rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
-        time = None if time is None else time[~bad]
-        _check_what_is_left(rows.size, int(bad.sum()))
+    rows = rows[~bad]
+    arrays, time = _part(~bad, arrays, time)
     lone, alone = lone_points(tire, arrays, rows) if time is None and beside is None else ({}, [])
-    out = {n: np.r_[still, rows[lone.get(n, [])]] for n in TANGENTIAL_FORCES if n in arrays}
-    left_out = {n: gone for n, gone in out.items() if gone.size}
+    out = {n: np.r_[at_rest, rows[lone.get(n, [])]] for n in TANGENTIAL_FORCES if n in arrays}
     kept = np.setdiff1d(np.arange(rows.size), np.concatenate([[], *lone.values()]))
-    rows, arrays = rows[kept], {n: a[kept] for n, a in arrays.items()}
-    time = None if time is None else time[kept]
+    rows = rows[kept]
+    arrays, time = _part(kept, arrays, time)
+    _check_what_is_left(rows.size, at_rest.size + int(bad.sum()))
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
@@ -207,6 +213,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         present=present,
     )
     data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
+    left_out = {n: gone for n, gone in out.items() if gone.size}
     return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q], left_out)
 
 
