@@ -21,7 +21,7 @@ def unlike_neighbours(values: Array, place: Array) -> Array:
 
     Off the median of its neighbours by ``STANDS_OUT`` times as much as usual: the geometric mean of what one
     point in ten is off, and of the range of these neighbours. And it has a part in the squared deviations of
-    all.
+    all. What is found hides others: those that are left are looked at until nothing is found.
 
     Parameters
     ----------
@@ -34,6 +34,16 @@ def unlike_neighbours(values: Array, place: Array) -> Array:
     ndarray of bool, shape (n,)
         None where there are no more points than neighbours, or all are at one place.
     """
+    left, before = np.arange(values.size), values.size + 1
+    while left.size < before:
+        before = left.size
+        left = left[~_seen_once(values[left], place[left])]
+    found = np.ones(values.size, bool)
+    found[left] = False
+    return found
+
+
+def _seen_once(values: Array, place: Array) -> Array:
     moved = place[:, np.ptp(place, axis=0) > 0.0] if len(place) > _POINTS_AROUND else place[:, :0]
     if moved.shape[1] == 0:
         return np.zeros(values.size, bool)
