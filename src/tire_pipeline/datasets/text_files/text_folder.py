@@ -25,7 +25,6 @@ from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote
-from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.progress import track
 
 _LONGEST_NAME = 255
@@ -157,6 +156,8 @@ class _NamesOnDisk:
     """Names of files, each once: those of a million files are not in memory."""
 
     def __init__(self) -> None:
+        from tire_pipeline.files.rows_on_disk import RowsOnDisk  # loads pandas, which no run starts with
+
         self._rows = RowsOnDisk(["name"])
         self._rows.do("create unique index by_name on rows (name)")
 
