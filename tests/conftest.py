@@ -48,6 +48,7 @@ _LONGEST_FIRST = (
     "viz/test_viz_browser.py",
     "magic_formula/test_magic_formula_compiled.py",
     "mismatch/recording/test_mismatch_another_tire.py",
+    "mismatch/recording/test_mismatch_spikes.py",
     "mismatch/recording/test_mismatch_units_and_axes.py",
     "magic_formula/test_magic_formula_subsets.py",
     "docs/test_docs_site.py",
