@@ -75,13 +75,13 @@ def test_a_table_is_left_as_it_is_and_says_what_was_left_out():
     pd.testing.assert_frame_equal(table, before)
     assert np.flatnonzero(without["fy"].isna()).tolist() == [40, 800]
     assert remarks == [
-        "fy: 2 values stand out from their neighbours, up to -3e+05, the first in row 40; left out"
+        "fy: 2 values from row 40 on stand out from their neighbours, up to -300,000 (left out)"
     ]
 
 
 def test_one_spike_is_said_with_its_value_and_row():
     x = np.arange(5.0)
-    assert said_of_spikes("fy", x, x == 3.0) == "fy: the value 3 in row 3 stands out from its neighbours"
+    assert said_of_spikes("fy", x, x == 3.0) == "fy: 3 in row 3 stands out from its neighbours"
 
 
 def test_the_check_of_a_recording_names_them():
@@ -90,4 +90,4 @@ def test_the_check_of_a_recording_names_them():
     table.loc[1200, "normal_load"] = -3e4
     (found,) = [issue for issue in check_recording(table) if issue.name == "spikes"]
     assert (found.severity, found.rows) == ("warning", ((1200, 1200),))
-    assert "normal_load: the value -3e+04 in row 1200" in found.where
+    assert "normal_load: -30,000 in row 1200" in found.where

@@ -17,6 +17,7 @@ from tire_pipeline.outliers import STANDS_OUT
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
+_WRITTEN_OUT = 1e3
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
@@ -65,12 +66,10 @@ def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """
     rows = np.flatnonzero(found)
     most = float(x[rows[np.argmax(np.abs(x[rows]))]])
+    size = f"{most:,.0f}" if abs(most) >= _WRITTEN_OUT else f"{most:.3g}"
     if rows.size == 1:
-        return f"{name}: the value {most:.4g} in row {rows[0]} stands out from its neighbours"
-    return (
-        f"{name}: {rows.size} values stand out from their neighbours, up to {most:.4g}, "
-        f"the first in row {rows[0]}"
-    )
+        return f"{name}: {size} in row {rows[0]} stands out from its neighbours"
+    return f"{name}: {rows.size} values from row {rows[0]} on stand out from their neighbours, up to {size}"
 
 
 def without_spikes(recording: pd.DataFrame, channels: Collection[str]) -> tuple[pd.DataFrame, list[str]]:
@@ -96,5 +95,5 @@ def without_spikes(recording: pd.DataFrame, channels: Collection[str]) -> tuple[
         found = spikes(x)
         if found.any():
             without[name] = np.where(found, np.nan, x)
-            remarks.append(f"{said_of_spikes(name, x, found)}; left out")
+            remarks.append(f"{said_of_spikes(name, x, found)} (left out)")
     return (recording.assign(**without) if without else recording), remarks

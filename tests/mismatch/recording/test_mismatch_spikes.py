@@ -39,7 +39,7 @@ def test_the_report_says_which_values_were_left_out_and_the_users_table_stays(ti
     run = spiked(record(), **FAR_OFF)
     before = run.copy()
     assumed = prepare(tire, run).assumed
-    assert "fy: the value 1e+05 in row 300 stands out from its neighbours; left out" in assumed
+    assert "fy: 100,000 in row 300 stands out from its neighbours (left out)" in assumed
     assert [text.split(":")[0] for text in assumed if "stand" in text] == ["slip_angle", "normal_load", "fy"]
     assert run.equals(before)
     assert run.attrs == before.attrs
@@ -49,7 +49,7 @@ def test_several_recordings_name_the_file_of_a_spike_and_a_held_out_one_is_judge
     first, second, third = (record(seed, friction=0.85) for seed in range(3))
     runs = {"a": spiked(first, fy={300: 1e5}), "b": second, "c": spiked(third, fy={200: -1e6})}
     report = explain_recordings(tire, runs, held_out="c")
-    assert "a: fy: the value 1e+05 in row 300 stands out from its neighbours; left out" in report.notes
+    assert "a: fy: 100,000 in row 300 stands out from its neighbours (left out)" in report.notes
     clean = explain_recordings(tire, {"a": first, "b": second, "c": third}, held_out="c")
     assert report.held_out.errors["fy"].rms_after == pytest.approx(
         clean.held_out.errors["fy"].rms_after, rel=0.05

@@ -51,8 +51,8 @@ def lone_points(tire: Any, arrays: Mapping[str, Array], rows: Array) -> tuple[di
         if found.size:
             lone[name] = found
         remarks += [
-            f"{name}: {arrays[name][i]:.4g} N in row {rows[i]} is unlike the points around it (the model has "
-            f"{simulated[name][i]:.4g} N); left out"
+            f"{name}: {arrays[name][i]:,.0f} N in row {rows[i]} is unlike the points around it, where the "
+            f"model has {simulated[name][i]:,.0f} N (left out)"
             for i in found
         ]
     return lone, remarks

@@ -49,8 +49,8 @@ def without_lone_points(
             out[name] = forces[name].copy()
             out[name][lone] = np.nan
         remarks += [
-            f"{name}: {forces[name][i]:.4g} N at {_said(points, slip, i)} is unlike the points around it and "
-            "left out"
+            f"{name}: {forces[name][i]:,.0f} N at {_said(points, slip, i)} is unlike the points around it "
+            "(left out)"
             for i in lone
         ]
     return out, remarks
@@ -59,7 +59,7 @@ def without_lone_points(
 def _said(points: Mapping[str, Array], slip: str, row: int) -> str:
     value = np.degrees(points[slip][row]) if slip == "slip_angle" else points[slip][row]
     unit = " deg" if slip == "slip_angle" else ""
-    return f"{slip} {value:.3g}{unit}, normal_load {points['normal_load'][row]:.4g} N (row {row})"
+    return f"{slip} {value:.3g}{unit}, normal_load {points['normal_load'][row]:,.0f} N, row {row},"
 
 
 def _rough_force(points: Mapping[str, Array], force: Array, slip: str) -> Array:
