@@ -20,7 +20,7 @@ from tire_pipeline.recordings.conventions.plausible import (
     plausible,
     size,
 )
-from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
+from tire_pipeline.recordings.spikes import LONGEST_SPIKE, WRITTEN_OUT, said_of_spikes, spikes
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -38,7 +38,6 @@ _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
-_WRITTEN_OUT = 1e3
 _NAN_BLOCK = 10
 
 
@@ -295,7 +294,7 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     if plausible(column, large):
         return []
     unit = _UNIT_OF_CHANNEL[column]
-    value = f"{large:,.0f}" if large >= _WRITTEN_OUT else f"{large:.3g}"
+    value = f"{large:,.0f}" if large >= WRITTEN_OUT else f"{large:.3g}"
     up_to = "up to " if large > PLAUSIBLE_VALUES[column].high else ""
     where = f"{column}, {up_to}{value} {unit}".removesuffix(" -")
     read_as = PLAUSIBLE_VALUES[column].read_as

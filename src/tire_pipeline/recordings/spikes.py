@@ -17,7 +17,8 @@ from tire_pipeline.outliers import STANDS_OUT
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
-_WRITTEN_OUT = 1e3
+WRITTEN_OUT = 1e3
+"""From this size on a number has no decimals."""
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
@@ -66,7 +67,7 @@ def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """
     rows = np.flatnonzero(found)
     most = float(x[rows[np.argmax(np.abs(x[rows]))]])
-    size = f"{most:,.0f}" if abs(most) >= _WRITTEN_OUT else f"{most:.3g}"
+    size = f"{most:,.0f}" if abs(most) >= WRITTEN_OUT else f"{most:.3g}"
     if rows.size == 1:
         return f"{name}: {size} in row {rows[0]} stands out from its neighbours"
     return f"{name}: {rows.size} values from row {rows[0]} on stand out from their neighbours, up to {size}"
