@@ -54,7 +54,6 @@ def command(
     **output: Any,
 ) -> None:
     """Fit a model."""
-    from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS
     from tire_pipeline.magic_formula import fit_magic_formula
     from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
     from tire_pipeline.recordings import join_recordings
@@ -65,7 +64,7 @@ def command(
     check_target(target, overwrite, *runs, *([start] if start else []))
     recordings, spiked = {}, []
     for name, run in read_runs(runs, axes=axes, units=units, names=names, format_=format_).items():
-        recordings[name], remarks = without_spikes(run, (*INPUT_CHANNELS, *FORCE_CHANNELS))
+        recordings[name], remarks = without_spikes(run)
         spiked += [f"{name}: {said}" for said in remarks]
     joined = join_recordings(recordings) if len(recordings) > 1 else next(iter(recordings.values()))
     result = fit_magic_formula(

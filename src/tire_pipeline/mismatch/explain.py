@@ -57,7 +57,7 @@ def weigh(
         ) from error
     finally:
         steps.close()
-    return Explained(prepared, analysis, sets, answer, prepared.kept_of(recording), level)
+    return Explained(prepared, analysis, sets, answer, prepared.recording, level)
 
 
 def _settled(

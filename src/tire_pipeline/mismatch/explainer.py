@@ -14,7 +14,6 @@ from tire_pipeline.mismatch.explain import prove, weigh
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.data import Choices
-from tire_pipeline.mismatch.recording.given import usable_numbers
 from tire_pipeline.mismatch.report.assemble import Explained
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.tasks import one_thread
@@ -115,7 +114,7 @@ class Explainer:
         self._check()
         return weigh(
             tire,
-            usable_numbers(recording),
+            recording,
             without=self.without,
             choices=Choices(self.priors),
             level=self.level,

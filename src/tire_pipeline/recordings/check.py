@@ -20,7 +20,7 @@ from tire_pipeline.recordings.conventions.plausible import (
     plausible,
     size,
 )
-from tire_pipeline.recordings.spikes import LONGEST_SPIKE, WRITTEN_OUT, said_of_spikes, spikes
+from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, size_in_words, spikes
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -270,14 +270,14 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
                     blocks[:20],
                 )
             )
-        issues += _spikes(str(column), values) if column in _USED else []
+        issues += _spikes(str(column), values) if column in _USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     return issues + _force_and_load(frame)
 
 
 def _spikes(column: str, values: np.ndarray) -> list[Issue]:
     found = spikes(values)
-    if column == "time" or not found.any():
+    if not found.any():
         return []
     return [Issue("spikes", "warning", said_of_spikes(column, values, found), "left out", _runs(found))]
 
@@ -294,9 +294,8 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     if plausible(column, large):
         return []
     unit = _UNIT_OF_CHANNEL[column]
-    value = f"{large:,.0f}" if large >= WRITTEN_OUT else f"{large:.3g}"
     up_to = "up to " if large > PLAUSIBLE_VALUES[column].high else ""
-    where = f"{column}, {up_to}{value} {unit}".removesuffix(" -")
+    where = f"{column}, {up_to}{size_in_words(large)} {unit}".removesuffix(" -")
     read_as = PLAUSIBLE_VALUES[column].read_as
     if not read_as:
         return [

@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS
 from tire_pipeline.outliers import STANDS_OUT
 
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
-WRITTEN_OUT = 1e3
-"""From this size on a number has no decimals."""
+_WRITTEN_OUT = 1e3
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
@@ -55,6 +55,11 @@ def spikes(x: Array) -> Array:
     return found
 
 
+def size_in_words(value: float) -> str:
+    """Return a value with three digits, thousands written out."""
+    return f"{value:,.0f}" if abs(value) >= _WRITTEN_OUT else f"{value:.3g}"
+
+
 def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """Return the channel, how many of its samples are spikes, the largest of them, and the first row.
 
@@ -67,13 +72,15 @@ def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """
     rows = np.flatnonzero(found)
     most = float(x[rows[np.argmax(np.abs(x[rows]))]])
-    size = f"{most:,.0f}" if abs(most) >= WRITTEN_OUT else f"{most:.3g}"
+    size = size_in_words(most)
     if rows.size == 1:
         return f"{name}: {size} in row {rows[0]} stands out from its neighbours"
     return f"{name}: {rows.size} values from row {rows[0]} on stand out from their neighbours, up to {size}"
 
 
-def without_spikes(recording: pd.DataFrame, channels: Collection[str]) -> tuple[pd.DataFrame, list[str]]:
+def without_spikes(
+    recording: pd.DataFrame, channels: Collection[str] = (*INPUT_CHANNELS, *FORCE_CHANNELS)
+) -> tuple[pd.DataFrame, list[str]]:
     """Return a recording with NaN in place of spikes, and what is said of them.
 
     Parameters

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 
 Array = np.ndarray
 _FRICTION_AND_STIFFNESS = {
@@ -51,6 +52,19 @@ def plain_forces(
             **more,
         )
     return {"fx": np.asarray(out.fx, float), "fy": np.asarray(out.fy, float)}
+
+
+def forces_at(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the model's fx and fy in N at the slips, cambers and loads of some channels.
+
+    Parameters
+    ----------
+    tire : TireModel
+    channels : mapping of ndarray, shape (n,)
+        SI; what is not recorded is zero.
+    """
+    zero = np.zeros(channels["normal_load"].size)
+    return plain_forces(tire, **{n: channels.get(n, zero) for n in SLIP_AND_LOAD})
 
 
 def slip_at_peak(tire: Any, output: str, load: Array) -> Array:

@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import scipy
 
-from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
-from tire_pipeline.mismatch.model.plain_forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.open_questions import Question
 
 Array = np.ndarray
@@ -45,7 +44,7 @@ def repair(
     n = arrays["normal_load"].size
     bad = np.zeros(n, bool)
     findings: list[Finding] = []
-    run = partial(_run, tire)
+    run = partial(forces_at, tire)
     for effect in _found_in("samples"):
         if effect.needs_time and time is None:
             continue
@@ -111,7 +110,7 @@ def open_axes(
         return Question(f"the recording agrees with the model only in other axes: {said}", _READ_AGAIN)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
-    if against and not excludes_sae(some, partial(_run, tire)):
+    if against and not excludes_sae(some, partial(forces_at, tire)):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
         return Question(f"{against}, and {both}", _READ_AGAIN)
     return None
@@ -126,13 +125,6 @@ _READ_AGAIN = (
 def _found_in(where: str) -> list[Effect]:
     """Return the effects of the catalogue that are found in samples, or in exact factors, in their order."""
     return sorted((e for e in catalogue().values() if e.found_in == where), key=lambda e: e.order)
-
-
-def _run(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
-    """Return the model's forces; what is not recorded is zero."""
-    zero = np.zeros(channels["normal_load"].size)
-    points = {n: channels.get(n, zero) for n in SLIP_AND_LOAD}
-    return plain_forces(tire, **points)
 
 
 def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:

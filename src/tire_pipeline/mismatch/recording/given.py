@@ -38,7 +38,7 @@ def usable_numbers(recording: Any) -> pd.DataFrame:
         As :func:`numeric`.
     """
     known = numeric(recording)
-    whole, remarks = without_spikes(known, (*INPUT_CHANNELS, *FORCE_CHANNELS))
+    whole, remarks = without_spikes(known)
     if not remarks:
         return whole
     lost = [whole[n].isna() & known[n].notna() for n in INPUT_CHANNELS if n in whole]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
-from tire_pipeline.mismatch.model.plain_forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.outliers import unlike_neighbours
 
 Array = np.ndarray
@@ -42,12 +42,11 @@ def lone_points(tire: Any, arrays: Mapping[str, Array], rows: Array) -> tuple[di
     """
     lone: dict[str, Array] = {}
     remarks: list[str] = []
-    zero = np.zeros(rows.size)
-    points = {n: arrays.get(n, zero) for n in SLIP_AND_LOAD}
-    simulated = plain_forces(tire, **points)
+    simulated = forces_at(tire, arrays)
+    place = np.column_stack([arrays[n] for n in SLIP_AND_LOAD if n in arrays])
     for name in (n for n in TANGENTIAL_FORCES if n in arrays):
         rest = arrays[name] - simulated[name]
-        found = np.flatnonzero(unlike_neighbours(rest, np.column_stack(list(points.values()))))
+        found = np.flatnonzero(unlike_neighbours(rest, place))
         if found.size:
             lone[name] = found
         remarks += [

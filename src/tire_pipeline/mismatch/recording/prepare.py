@@ -51,6 +51,8 @@ class Prepared:
 
     Parameters
     ----------
+    recording : pandas.DataFrame
+        As numbers, without the values that are left out.
     data : Data
         All usable samples, at 50 to 100 Hz.
     findings : list of Finding
@@ -72,6 +74,7 @@ class Prepared:
         Force -> rows of the recording in which the wheel stands, or whose value is unlike all around it.
     """
 
+    recording: pd.DataFrame
     data: Data
     findings: list[Finding]
     notes: list[str]
@@ -81,10 +84,6 @@ class Prepared:
     assumed: list[str] = field(default_factory=list)
     questions: list[Question] = field(default_factory=list)
     left_out: Mapping[str, Array] = field(default_factory=dict)
-
-    def kept_of(self, recording: pd.DataFrame) -> pd.DataFrame:
-        """Return the recording without the values that are left out."""
-        return without_values(recording, self.left_out)
 
     @property
     def question(self) -> Question | None:
@@ -214,7 +213,8 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     )
     data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
     left_out = {n: gone for n, gone in out.items() if gone.size}
-    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q], left_out)
+    recording, questions = without_values(recording, left_out), [q for q in asked if q]
+    return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:

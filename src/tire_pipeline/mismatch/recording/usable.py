@@ -12,7 +12,7 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, CHANCE, SMALL, largest, moves
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, largest, moves
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.recordings.check import unit_stated
@@ -23,6 +23,8 @@ LEAST = 0.5
 """Less than half: most of the force comes from something other than the recorded slip. In the real
 recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
 0.94."""
+_STANDS = 0.05
+"""Of the largest speed: a wheel that is slower stands. The slowest of the recordings at hand have 0.17."""
 
 
 @dataclass(frozen=True)
@@ -179,17 +181,16 @@ def judge(
 def standing(arrays: Mapping[str, Array], notes: list[str]) -> Array:
     """Return the samples in which the wheel stands, bool, shape (n,), and note them.
 
-    A wheel that does not roll has neither a slip angle nor a force by it: its speed is below a twentieth of
-    the largest.
+    A wheel that does not roll has neither a slip angle nor a force by it.
     """
     if "speed" not in arrays:
         return np.zeros(arrays["normal_load"].size, bool)
     speed = np.abs(arrays["speed"])
-    still = np.asarray(speed < CHANCE * largest(speed))
+    still = np.asarray(speed < _STANDS * largest(speed))
     if still.any():
         notes.append(
             f"{int(still.sum())} samples are left out: the wheel stands (speed below "
-            f"{CHANCE * largest(speed):.2g} m/s)"
+            f"{_STANDS * largest(speed):.2g} m/s)"
         )
     return still
 

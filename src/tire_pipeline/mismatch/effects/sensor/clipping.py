@@ -38,12 +38,12 @@ class Clipping(Effect):
 
     def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Find many samples exactly at one end of a channel's range."""
-        found, simulated = [], simulate(channels)
+        found = []
         for name in CLIPPED:
             if name not in channels:
                 continue
             x = channels[name]
-            held = partial(_held, name, channels, simulated.get(name))
+            held = partial(_held, name, channels, simulate)
             look = _points_at_a_limit if "_steady_points" in channels else _at_the_ends
             bad, limits = look(x, held)
             if bad is None:
@@ -53,7 +53,7 @@ class Clipping(Effect):
                 f"{int(bad.sum())} samples"
             )
             values = {f"{name}_limit_{i + 1}": (v, 0.0, "as recorded") for i, v in enumerate(limits)}
-            middle = 0.5 * (np.nanmin(x) + np.nanmax(x))
+            middle = _middle(x)
             below, above = [v for v in limits if v < middle], [v for v in limits if v > middle]
             ends = (max(below, default=-np.inf), min(above, default=np.inf))
             found.append(Finding(self.name, name, text, values, {}, bad, limits=ends))
@@ -91,20 +91,24 @@ _HELD_FROM = 0.6
 _DECIMALS = range(-3, 12)
 
 
-def _held(name: str, channels: Mapping[str, Array], simulated: Array | None, at: Array) -> bool:
+def _held(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Array) -> bool:
     """Whether a channel stands at a value because it is held there, and not because it can't go beyond.
 
     An input is held for most of a test. A force rests at zero, or as long as slip and load stand still. Where
     the simulated force is in the other half of the range, the recorded one was not on its way to a limit.
     """
-    x = channels[name]
-    middle = 0.5 * (np.nanmin(x) + np.nanmax(x))
+    x, simulated = channels[name], simulate(channels).get(name)
+    middle = _middle(x)
     if simulated is not None and np.median((simulated[at] - middle) * (x[at] - middle)) < 0.0:
         return True
     if at.mean() < _HELD_FROM:
         return False
     moves = any(np.ptp(channels[n][at]) > 0.0 for n in SLIP_AND_LOAD if n in channels)
     return name not in FORCE_CHANNELS or bool(np.all(channels[name][at] == 0.0)) or not moves
+
+
+def _middle(x: Array) -> float:
+    return 0.5 * float(np.nanmin(x) + np.nanmax(x))
 
 
 def _points_at_a_limit(x: Array, held: Callable[[Array], bool]) -> tuple[Array | None, list[float]]:
