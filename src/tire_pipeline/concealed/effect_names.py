@@ -24,7 +24,10 @@ PHYSICS: tuple[str, ...] = (
 ARTEFACTS: tuple[str, ...] = (
     "force_offset",
     "force_gain",
+    "load_gain",
+    "load_offset",
     "slip_angle_offset",
+    "slip_ratio_offset",
     "camber_offset",
     "time_delay",
     "low_pass",

@@ -18,8 +18,8 @@ PHYSICS = (
     "nonuniformity compliance surface_change"
 ).split()
 ARTEFACTS = (
-    "force_offset force_gain slip_angle_offset camber_offset time_delay low_pass crosstalk sensor_drift "
-    "sign_convention unit_error clipping stuck_channel"
+    "force_offset force_gain load_gain load_offset slip_angle_offset slip_ratio_offset camber_offset "
+    "time_delay low_pass crosstalk sensor_drift sign_convention unit_error clipping stuck_channel"
 ).split()
 
 

@@ -27,14 +27,16 @@ class Scene:
     ----------
     frame : pandas.DataFrame
         The recording; channels that it lacks are taken at their nominal value.
-    force, by_angle, by_camber, friction, stiffness : ndarray, shape (n, 2)
-        fx and fy of the model in N, and their derivatives by slip angle, camber, friction scale
-        and slip stiffness scale.
+    force, by_angle, by_ratio, by_load, by_camber, friction, stiffness : ndarray, shape (n, 2)
+        fx and fy of the model in N, and their derivatives by slip angle, slip ratio, normal load, camber,
+        friction scale and slip stiffness scale.
     """
 
     frame: pd.DataFrame
     force: np.ndarray
     by_angle: np.ndarray
+    by_ratio: np.ndarray
+    by_load: np.ndarray
     by_camber: np.ndarray
     friction: np.ndarray
     stiffness: np.ndarray
@@ -58,6 +60,8 @@ def look_at(tire: TireModel, frame: pd.DataFrame) -> Scene:
         frame=frame,
         force=model_forces(tire, frame),
         by_angle=slope(shifted("slip_angle"), 1e-3),
+        by_ratio=slope(shifted("slip_ratio"), 1e-3),
+        by_load=slope(shifted("normal_load"), 1.0),
         by_camber=slope(shifted("camber"), 1e-3),
         friction=slope(scaled("LMUX", "LMUY"), 1e-2),
         stiffness=slope(scaled("LKX", "LKY"), 1e-2),
@@ -146,7 +150,10 @@ def _artefacts(tire: TireModel, s: Scene) -> Groups:
         "plysteer_conicity": _stack(_only(1, fz), s.by_angle),
         "force_offset": _stack(_only(1, np.ones_like(fz))),
         "force_gain": _stack(_only(1, fy)),
+        "load_gain": _stack(fz[:, None] * s.by_load),
+        "load_offset": _stack(s.by_load),
         "slip_angle_offset": _stack(s.by_angle),
+        "slip_ratio_offset": _stack(s.by_ratio),
         "camber_offset": _stack(s.by_camber),
         "crosstalk": _stack(_only(0, fy), _only(1, fx)),
     }

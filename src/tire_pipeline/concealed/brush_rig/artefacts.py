@@ -22,7 +22,10 @@ UNSCALED = ("sign_convention", "unit_error", "stuck_channel")
 ARTEFACT_GUESS: dict[str, float] = {
     "force_offset": 60.0,
     "force_gain": 0.03,
+    "load_gain": 0.03,
+    "load_offset": 100.0,
     "slip_angle_offset": 0.002,
+    "slip_ratio_offset": 0.003,
     "camber_offset": 0.01,
     "time_delay": 0.03,
     "low_pass": 0.03,
@@ -35,7 +38,10 @@ ARTEFACT_GUESS: dict[str, float] = {
 ARTEFACT_LIMITS: dict[str, tuple[float, float]] = {
     "force_offset": (1.0, 1000.0),
     "force_gain": (0.001, 0.3),
+    "load_gain": (0.001, 0.3),
+    "load_offset": (1.0, 1000.0),
     "slip_angle_offset": (1e-5, 0.03),
+    "slip_ratio_offset": (1e-5, 0.03),
     "camber_offset": (5e-4, 0.04),
     "time_delay": (0.002, 0.3),
     "low_pass": (0.002, 0.3),
@@ -83,8 +89,10 @@ def draw_details(
         channel = str(rng.choice(["normal_load", "fy", "slip_angle"]))
     elif name == "crosstalk":
         channel = "fy" if braking and rng.random() < 0.5 else "fx"
-    elif name in ("slip_angle_offset", "camber_offset"):
+    elif name in ("slip_angle_offset", "slip_ratio_offset", "camber_offset"):
         channel = name.removesuffix("_offset")
+    elif name in ("load_gain", "load_offset"):
+        channel = "normal_load"
     start = float(rng.uniform(0.3, 0.6)) * end
     stop = start + float(rng.uniform(0.2, 0.4)) * end
     return ArtefactDetails(channel, float(rng.choice([-1.0, 1.0])), factor, (start, stop), end)
@@ -115,9 +123,9 @@ def apply_artefact(
     channel, signed = details.channel, strength * details.sign
     time = out["time"].to_numpy()
     x = out[channel].to_numpy()
-    if name in ("force_offset", "slip_angle_offset", "camber_offset"):
+    if name.endswith("_offset"):
         out[channel] = x + signed
-    elif name == "force_gain":
+    elif name in ("force_gain", "load_gain"):
         out[channel] = x * (1.0 + signed)
     elif name == "time_delay":
         for force in ("fx", "fy"):

@@ -36,6 +36,7 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     "turn_slip": ("turn",),
     "crosstalk": ("brake",),
     "force_gain": ("brake",),
+    "slip_ratio_offset": ("brake",),
     "friction_scale": ("brake",),
     "surface_change": ("repeat",),
     "sensor_drift": ("repeat",),

@@ -35,7 +35,7 @@ _CONFOUNDED_PAIRS = (
     {"friction_scale", "surface_change"},
 )
 _IN_PAIRS = ("force_offset", "slip_angle_offset", "time_delay", "crosstalk", "sensor_drift")
-_CHOSEN_ARTEFACTS = tuple(name for name in ARTEFACTS if name != "camber_offset")
+_CHOSEN_ARTEFACTS = tuple(name for name in ARTEFACTS if name not in ("camber_offset", "load_gain"))
 
 
 @dataclass(frozen=True)

@@ -48,6 +48,9 @@ NEEDED_CHANNELS: Mapping[str, tuple[str, ...]] = {
 }
 """Channels that the recording keeps beside slip angle, load and force, so that the effect can be named."""
 
+_SEVERAL_LOADS = 1.2
+"""Largest over smallest load from which an offset of the load is no gain of it."""
+
 ATTEMPTS = 200
 
 
@@ -180,6 +183,8 @@ def _set_up(
         raise _UnfitSweeps
     raw, raw_held = rows(layout.shown, None), rows(layout.held_out, None)
     if "camber_offset" in effects and np.ptp(raw["camber"]) < 0.01:
+        raise _UnfitSweeps
+    if "load_offset" in effects and raw["normal_load"].max() < _SEVERAL_LOADS * raw["normal_load"].min():
         raise _UnfitSweeps
     picked = any(INSERTED_EFFECTS[name].whole for name in effects) or bool(rng.random() < 0.3)
     rate = _rate(rng, layout, raw, effects)

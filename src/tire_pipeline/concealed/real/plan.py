@@ -52,6 +52,7 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
         "artefact": (
             "force_offset",
             "force_gain",
+            "load_offset",
             "slip_angle_offset",
             "sensor_drift",
             "clipping",
@@ -65,6 +66,7 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
             "low_pass",
             "crosstalk",
             "camber_offset",
+            "load_gain",
             "wear",
             "surface_change",
         ),
@@ -82,6 +84,7 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "ambiguous": (
             "force_offset",
+            "load_gain",
             "relaxation_length",
             "time_delay",
             "low_pass",
@@ -94,17 +97,19 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
         "artefact": (
             "force_offset",
             "force_gain",
+            "load_offset",
             "slip_angle_offset",
             "clipping",
             "sign_convention",
             "unit_error",
         ),
-        "ambiguous": ("crosstalk", "camber_offset"),
+        "ambiguous": ("crosstalk", "camber_offset", "load_gain"),
     },
 }
 """What can be put into the recordings of each source without a tire. *Ambiguous* is what these recordings
 can't tell from something else: a lag at one speed or in slow ramps; a slow change of what was not recorded;
-a side force that goes with the load; an offset where there is one load."""
+a side force that goes with the load; an offset where there is one load; a gain of the load, in which peak and
+slope are nearly proportional."""
 
 HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
     "calspan": (
@@ -119,10 +124,12 @@ HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
 LAGGING_EFFECTS = ("relaxation_length", "time_delay", "low_pass")
 SLOW_EFFECTS = ("wear", "surface_change", "temperature", "sensor_drift")
 SIDE_FORCE_EFFECTS = ("force_offset", "plysteer_conicity", "crosstalk", "slip_angle_offset", "camber_offset")
+SCALE_EFFECTS = ("load_gain", "force_gain", "friction_scale", "load_offset")
 ALIKE: dict[str, tuple[str, ...]] = (
     dict.fromkeys(LAGGING_EFFECTS, LAGGING_EFFECTS)
     | dict.fromkeys(("wear", "surface_change"), SLOW_EFFECTS)
     | dict.fromkeys(("force_offset", "crosstalk", "camber_offset"), SIDE_FORCE_EFFECTS)
+    | {"load_gain": SCALE_EFFECTS}
 )
 """Effect of an ambiguous case -> names that its recording cannot separate from it."""
 

@@ -242,6 +242,14 @@ def _gain(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Detai
     return frame.assign(fy=frame["fy"] * (1.0 + x))
 
 
+def _load_gain(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
+    return frame.assign(normal_load=frame["normal_load"] * (1.0 + x))
+
+
+def _load_offset(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
+    return frame.assign(normal_load=frame["normal_load"] + x * s.load)
+
+
 def _crosstalk(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     """The load cell leaks the normal load into the side force."""
     return frame.assign(fy=frame["fy"] + x * frame["normal_load"])
@@ -308,6 +316,8 @@ INSERTED_EFFECTS: dict[str, InsertedEffect] = {
     "nonuniformity": InsertedEffect("physics", _once_a_turn, 0.005, 2e-4, 0.05, whole=True),
     "force_offset": InsertedEffect("artefact", _offset("fy"), 0.03, 1e-3, 0.6, share_of="force", signed=True),
     "force_gain": InsertedEffect("artefact", _gain, 0.05, 0.001, 0.7, signed=True),
+    "load_gain": InsertedEffect("artefact", _load_gain, 0.05, 0.001, 0.5, signed=True),
+    "load_offset": InsertedEffect("artefact", _load_offset, 0.05, 0.001, 0.3, signed=True),
     "slip_angle_offset": InsertedEffect("artefact", _offset("slip_angle"), 0.003, 5e-5, 0.06, signed=True),
     "camber_offset": InsertedEffect("artefact", _offset("camber"), 0.02, 1e-3, 0.1, signed=True),
     "crosstalk": InsertedEffect("artefact", _crosstalk, 0.03, 1e-3, 0.5, signed=True),

@@ -163,8 +163,8 @@ class Effect:
         Moments (s) among them that a fit moves by trial, since the force jumps there.
     constant : str
         Parameter by which it changes friction or stiffness by a constant factor, if it does.
-    offset_of : str
-        Channel to which its parameter ``offset`` is added, if that is all it does.
+    wrong_channel : str
+        Channel of the slips, camber or load that reads wrong, if that is all it does: :meth:`misread`.
     instead_of_file : bool
         True if it takes the place of the relaxation that the file itself states.
     found_in : str
@@ -194,7 +194,7 @@ class Effect:
     scanned: tuple[str, ...] = ()
     stepped: tuple[str, ...] = ()
     constant = ""
-    offset_of = ""
+    wrong_channel = ""
     instead_of_file = False
     found_in = ""
     in_one_stretch = False
@@ -271,6 +271,10 @@ class Effect:
 
     def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Change what the tire sees (slips, camber, load)."""
+
+    def misread(self, true: Array, p: Parameters) -> Array:
+        """Return what its ``wrong_channel`` reads where the value is ``true``; plus ``offset`` by default."""
+        return true + p["offset"]
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Change the tire (friction, stiffness, coefficients)."""

@@ -18,8 +18,8 @@ from tire_pipeline.mismatch.recording.prepare import prepare
 def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[str, float]) -> pd.DataFrame:
     """Return a recording as it would be with one more effect.
 
-    What a rig does to a force acts on the recorded force, an offset of a channel on that channel. Of physics
-    the force changes by what the model says that it changes.
+    What a rig does to a force acts on the recorded force, what a channel reads wrong on that channel. Of
+    physics the force changes by what the model says that it changes.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[st
         )
     effect = catalogue()[name]
     values = {**effect.zeros(data), **parameters}
-    if effect.offset_of:
-        channel = effect.offset_of
-        return recording.assign(**{channel: recording[channel] + values["offset"]})
+    if effect.wrong_channel:
+        true = recording[effect.wrong_channel].to_numpy(float)
+        return recording.assign(**{effect.wrong_channel: effect.misread(true, values)})
     if type(effect).outputs is not Effect.outputs and not _of_the_tire(effect):
         zero = np.zeros(data.size)
         state = State(zero, zero, zero, data.get("normal_load"), zero, zero, zero, zero)

@@ -18,7 +18,7 @@ class CamberOffset(Effect):
     title = "an offset of the camber"
     equation = "camber = recorded camber - offset"
     source = "alignment of the rig"
-    offset_of = "camber"
+    wrong_channel = "camber"
     family = "side"
     prior_source = "Judged: a wheel is set up to about a degree"
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.02),)

@@ -18,7 +18,7 @@ class SlipAngleOffset(Effect):
     title = "an offset of the slip angle"
     equation = "slip angle = recorded slip angle - offset"
     source = "alignment of rig or optical sensor"
-    offset_of = "slip_angle"
+    wrong_channel = "slip_angle"
     family = "side"
     prior_source = "Judged: an angle is zeroed to about half a degree"
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.01),)

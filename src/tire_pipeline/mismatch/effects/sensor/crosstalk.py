@@ -15,7 +15,7 @@ class Crosstalk(Effect):
     Covers the leak of the normal load into Fy and Fx, the largest force and so the most common leak, or the
     leaks between Fx and Fy, or all of these, each with a factor of its own. At one load a leak of the normal
     load is an offset of the force, and is named so. Not covered: leaks into the normal load, which then is
-    wrong as an input, and of moments.
+    wrong as an input (load_gain, load_offset are without the leak), and of moments.
     """
 
     name = "crosstalk"

@@ -11,8 +11,8 @@ from tire_pipeline.mismatch.effects.shared import GAINS
 class ForceGain(Effect):
     """Peak and slope move by the same factor, in one channel or both.
 
-    Covers a constant factor for each force. Not covered: a load cell that is not linear, and a wrong gain
-    of the normal load, which moves friction and stiffness by load and is no factor of the force.
+    Covers a constant factor for each force. Not covered: a load cell that is not linear. A gain of
+    the normal load is load_gain.
     """
 
     name = "force_gain"

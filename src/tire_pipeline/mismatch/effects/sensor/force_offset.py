@@ -10,8 +10,8 @@ from tire_pipeline.mismatch.effects.context import Context
 class ForceOffset(Effect):
     """The same offset at every slip and load.
 
-    Covers a constant for each force. Not covered: an offset of the normal load; what changes over time is
-    sensor_drift, what changes with load crosstalk or conicity.
+    Covers a constant for each force. Not covered: what changes over time is sensor_drift, what changes with
+    load crosstalk or conicity. An offset of the normal load is load_offset.
     """
 
     name = "force_offset"

@@ -37,6 +37,7 @@ class FrictionScale(Effect):
         "surface_change": "a surface change begins at a moment",
         "stiffness_scale": "stiffness moves the slope and leaves the peak",
         "temperature": "temperature follows the tread temperature",
+        "load_gain": "a gain of the load also raises the slope at zero slip",
     }
     experiment = "record one sweep to full sliding at small and at large load, with both forces recorded"
     order = 40

@@ -48,17 +48,21 @@ class PlysteerConicity(Effect):
     needed = ("conicity", "pseudo_camber", "thrust")
 
     def starts(self, data: Context) -> list[dict[str, float]]:
-        """As a force that stays, as one that fades, and as camber where the model knows camber."""
+        """As a force that stays, as one that fades, and as camber where the model knows camber.
+
+        A crooked crown need not come with ply steer, so a camber is tried alone, too.
+        """
         zero = self.zeros(data)
         out = [zero, {**zero, "thrust": TOO_SMALL_TO_SEE}]
         if data.nominal.knows_camber:
-            out.append({**zero, "pseudo_camber": 1e-6})
+            camber = {**zero, "pseudo_camber": 1e-6}
+            out += [camber, {**camber, "ply_steer": TOO_SMALL_TO_SEE}]
         return out
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
-        """Return the parameters of one of the three forms."""
+        """Return the parameters of one of the four forms."""
         if start["pseudo_camber"]:
-            return ("pseudo_camber", "ply_steer")
+            return ("pseudo_camber", "ply_steer") if start["ply_steer"] else ("pseudo_camber",)
         return ("conicity", "thrust" if start["thrust"] else "ply_steer")
 
     def inputs(self, state: State, data: Context, p: Parameters) -> None:
