@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tire_pipeline.mismatch.discrepancy import load_curvature
 from tire_pipeline.mismatch.discrepancy.unnamed import forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.data import Data
@@ -52,7 +53,7 @@ class Background:
 def make_background(
     data: Data, screened: Iterable[tuple[str, Columns]], largest: Mapping[str, float]
 ) -> Background:
-    """Return a few directions for each effect and for all unnamed forms together.
+    """Return a few directions for each effect, for what the load leaves, and for all unnamed forms together.
 
     Parameters
     ----------
@@ -65,6 +66,7 @@ def make_background(
     ways: dict[str, list[Columns]] = {}
     for name, columns in screened:
         ways.setdefault(name, []).append(columns)
+    ways[load_curvature.FAMILY] = load_curvature.load_curvature(data)
     ways[UNNAMED] = list(forms(data, []))
     parts: list[Columns] = []
     families: list[str] = []
@@ -74,7 +76,7 @@ def make_background(
             continue
         parts.append(found)
         count = next(iter(found.values())).shape[1]
-        families += [UNNAMED if name == UNNAMED else catalogue()[name].family] * count
+        families += [catalogue()[name].family if name in catalogue() else name] * count
     stacked = {o: np.hstack([np.zeros((data.size, 0)), *(p[o] for p in parts)]) for o in data.outputs}
     alone = (principal([form], largest) for form in ways[UNNAMED])
     return Background(stacked, tuple(families), tuple(form for form in alone if form is not None))

@@ -175,6 +175,8 @@ class Effect:
     parameters : tuple of Parameter
     looks_like : dict
         Name of another effect -> what tells them apart.
+    same_fault : str
+        A fault of the recording that is the same to the data, in words, if it is no effect by itself.
     experiment : str
         What to record to be sure of it.
     """
@@ -200,6 +202,7 @@ class Effect:
     in_one_stretch = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}
+    same_fault = ""
     experiment = ""
     order = 50
 

@@ -121,11 +121,11 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
     return Question(
-        "this seems not to be the file of this tire, or not of its state (pressure, rim), or the zero of the "
-        f"normal load is off: several properties differ from the file at once ({said}). Together they "
+        "this seems not to be the file of this tire, or not of its state (pressure, rim), or the recorded "
+        f"normal load is wrong: several properties differ from the file at once ({said}). Together they "
         f"explain {100.0 * gone:.0f}% of the squared difference",
         "compare the name of the file, the size and the inflation pressure with what was on the rig, check "
-        "that the load cell shows zero without load, or fit a model to this recording (tire fit, or "
+        "the load cell (zero without load, a known weight), or fit a model to this recording (tire fit, or "
         "fit_magic_formula in Python)",
         "another tire",
         gone,

@@ -32,7 +32,11 @@ class StiffnessScale(Effect):
         "force_gain": "a gain also moves the peak",
         "unit_error": "a wrong unit is an exact ratio",
     }
-    experiment = "record small-slip sweeps at three loads, and one sweep to full sliding"
+    same_fault = "a wrong gain of the slip channel"
+    experiment = (
+        "turn the wheel by a known angle and read the slip channel; record small-slip sweeps at three loads, "
+        "and one sweep to full sliding"
+    )
     order = 40
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:

@@ -235,7 +235,8 @@ def _causes(
 
 def _kinds(effect: EffectReport) -> set[str]:
     """Kinds of an effect and of what cannot be excluded instead of it."""
-    return {effect.kind, *(catalogue()[a].kind for a in effect.alternatives)}
+    each = [catalogue()[n] for n in (effect.name, *effect.alternatives)]
+    return {e.kind for e in each} | {"artefact" for e in each if e.same_fault}
 
 
 def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
@@ -250,9 +251,11 @@ def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
 
 def _cause(effect: EffectReport, ranges: Ranges) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
-    names = [effect.title, *(catalogue()[a].title for a in effect.alternatives)]
+    others = [catalogue()[a] for a in effect.alternatives]
+    faults = [e.same_fault for e in (catalogue()[effect.name], *others) if e.same_fault]
+    names = [effect.title, *(e.title for e in others), *faults]
     stretches = stretches_of(effect, ranges)
-    apart = "this recording cannot tell them apart" if effect.alternatives else ""
+    apart = "this recording cannot tell them apart" if len(names) > 1 else ""
     seen = f"seen {stretches}" if stretches else ""
     said = "; ".join(filter(None, [seen, apart]))
     together = listed(names)

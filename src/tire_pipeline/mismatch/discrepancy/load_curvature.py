@@ -1,0 +1,54 @@
+"""What a formula leaves over the load, of friction and of stiffness: a curvature that all forces share.
+
+Friction and slip stiffness over the load are polynomials of low degree in the formula, and a fit of forces
+hardly weighs small loads. So a fit leaves some percent of the force there, of the longitudinal and the
+lateral one alike, and nothing of the level or of the slope over load, which the fit has met.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
+
+Array = np.ndarray
+FAMILY = "load"
+_DEGREE = 2
+
+
+def load_curvature(data: Data) -> list[dict[str, Array]]:
+    """Return the change of the forces by the friction, and by the stiffness; nothing at one load.
+
+    Parameters
+    ----------
+    data : Data
+
+    Returns
+    -------
+    list of dict of ndarray, shape (n, 1)
+        For each output, N. Between three loads and more it is what a parabola has beside a straight line,
+        which is fitted by the weight of the squared force.
+    """
+    if not data.varies("normal_load"):
+        return []
+    base = data.simulation.base
+    weight = np.sqrt(sum(force**2 for force in base.values()))
+    powers = np.vander(data.nominal.load_excess(data.get("normal_load")), _DEGREE + 1, increasing=True)
+    line, parabola = powers[:, :_DEGREE], powers[:, _DEGREE]
+    fitted = np.linalg.lstsq(line * weight[:, None], parabola * weight, rcond=None)[0]
+    bend = parabola - line @ fitted
+    return [_changed(data, name, bend) for name in ("log_friction", "log_stiffness")]
+
+
+def _changed(data: Data, name: str, by: Array) -> dict[str, Array]:
+    """Return the derivative of the forces by a change of the tire, times ``by``."""
+    simulation, ends = data.simulation, []
+    for sign in (1.0, -1.0):
+        state = replace(simulation.as_recorded(), **{name: sign * DIFFERENCE * by})
+        simulation.relax(state)
+        ends.append(simulation.forces(state))
+    up, down = ends
+    return {o: ((up[o] - down[o]) / (2.0 * DIFFERENCE))[:, None] for o in data.outputs}

@@ -1,0 +1,62 @@
+"""Channels that the model is driven by and that read wrong: each has a name of its own."""
+
+import numpy as np
+import pytest
+from brake_rig import brake_sweeps, weighted
+from weighed import named
+
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.recording.prepare import prepare
+
+WRONG = {
+    "load_gain": {"gain": 0.07},
+    "load_offset": {"offset": -150.0},
+    "slip_ratio_offset": {"offset": 0.004},
+    "slip_angle_offset": {"offset": 0.003},
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_an_effect_takes_back_what_its_channel_reads_wrong(braked, name):
+    """The model at the misread channel, with the effect, gives the forces at the true one."""
+    file = weighted(braked)
+    recording = brake_sweeps(file, (-3.0, 5.0))
+    effect = catalogue()[name]
+    true = recording[effect.wrong_channel].to_numpy()
+    misread = recording.assign(**{effect.wrong_channel: effect.misread(true, WRONG[name])})
+    truth, data = prepare(file, recording).data, prepare(file, misread).data
+    found = simulate(data, [(name, {**effect.zeros(data), **WRONG[name]})])
+    for output, force in truth.simulation.base.items():
+        largest = np.abs(force).max()
+        assert np.abs(data.simulation.base[output] - force).max() > 1e-3 * largest
+        np.testing.assert_allclose(found[output], force, atol=1e-6 * largest)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("offset", [0.004, pytest.param(-0.008, marks=pytest.mark.long)])
+def test_an_offset_of_the_slip_ratio_is_no_crosstalk(braked, offset):
+    """A rolling radius that is wrong by half a percent was crosstalk with a probability of 1.00."""
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    report = explain_mismatch(file, run.assign(slip_ratio=run["slip_ratio"] + offset))
+    assert [effect.name for effect in report.effects] == ["slip_ratio_offset"]
+    assert report.effects[0].parameters["offset"][0] == pytest.approx(offset, rel=0.15)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("offset", [-400.0, 400.0])
+def test_an_offset_of_the_load_has_its_name(braked, offset):
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    names = named(file, run.assign(normal_load=run["normal_load"] + offset))
+    assert names == ["load_offset"]
+
+
+def test_a_load_offset_is_not_looked_for_at_one_load(braked):
+    file = weighted(braked)
+    recording = brake_sweeps(file, (0.0, 5.0)).assign(normal_load=4000.0)
+    data = prepare(file, recording).data
+    assert catalogue()["load_offset"].absent(data) == "normal_load does not vary"
+    assert catalogue()["load_gain"].absent(data) is None
