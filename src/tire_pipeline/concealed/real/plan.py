@@ -121,10 +121,16 @@ HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
     "tydex": (("camber",),),
 }
 
-LAGGING_EFFECTS = ("relaxation_length", "time_delay", "low_pass")
-SLOW_EFFECTS = ("wear", "surface_change", "temperature", "sensor_drift")
-SIDE_FORCE_EFFECTS = ("force_offset", "plysteer_conicity", "crosstalk", "slip_angle_offset", "camber_offset")
-SCALE_EFFECTS = ("load_gain", "force_gain", "friction_scale", "load_offset")
+LAGGING_EFFECTS: tuple[str, ...] = ("relaxation_length", "time_delay", "low_pass")
+SLOW_EFFECTS: tuple[str, ...] = ("wear", "surface_change", "temperature", "sensor_drift")
+SIDE_FORCE_EFFECTS: tuple[str, ...] = (
+    "force_offset",
+    "plysteer_conicity",
+    "crosstalk",
+    "slip_angle_offset",
+    "camber_offset",
+)
+SCALE_EFFECTS: tuple[str, ...] = ("load_gain", "force_gain", "friction_scale", "load_offset")
 ALIKE: dict[str, tuple[str, ...]] = (
     dict.fromkeys(LAGGING_EFFECTS, LAGGING_EFFECTS)
     | dict.fromkeys(("wear", "surface_change"), SLOW_EFFECTS)

@@ -175,8 +175,6 @@ class Effect:
     parameters : tuple of Parameter
     looks_like : dict
         Name of another effect -> what tells them apart.
-    same_fault : str
-        A fault of the recording that is the same to the data, in words, if it is no effect by itself.
     experiment : str
         What to record to be sure of it.
     """
@@ -202,7 +200,6 @@ class Effect:
     in_one_stretch = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}
-    same_fault = ""
     experiment = ""
     order = 50
 
@@ -255,6 +252,10 @@ class Effect:
     def expected(self, data: Context) -> bool:
         """Whether physics requires it: its driver varied, and the file has no term for it."""
         return False
+
+    def same_fault(self, data: Context) -> str:
+        """Return a fault of the recording that is the same to the data, in words; none by default."""
+        return ""
 
     def drivers(self, output: str) -> tuple[str, ...]:
         """Return the channels whose values decide how large it is in a force; none if time does."""

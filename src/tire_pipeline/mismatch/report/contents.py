@@ -106,6 +106,8 @@ class EffectReport:
         Name of a parameter -> (low, high): its 95% interval within the parameter's bounds.
     undetermined : tuple of str
         Parameters of which the recording says less than what tires usually have (their priors).
+    same_faults : tuple of str
+        Faults of the recording that are the same to the data and have no name of their own, in words.
 
     See Also
     --------
@@ -149,6 +151,7 @@ class EffectReport:
     evidence: dict[str, float | str] = field(default_factory=dict)
     intervals: dict[str, tuple[float, float]] = field(default_factory=dict)
     undetermined: tuple[str, ...] = ()
+    same_faults: tuple[str, ...] = ()
 
     def rows(self) -> list[tuple[str, str, str, str]]:
         """Return each parameter's value, its 95% interval, and whether it may have no effect.

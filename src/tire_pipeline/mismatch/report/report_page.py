@@ -136,9 +136,6 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
             (catalogue()[n].title, n, looks.get(n) or catalogue()[n].looks_like.get(effect.name, ""))
             for n in effect.alternatives
         ],
-        "faults": [
-            e.same_fault for n in (effect.name, *effect.alternatives) if (e := catalogue()[n]).same_fault
-        ],
         "evidence": _evidence(effect.evidence),
     }
 

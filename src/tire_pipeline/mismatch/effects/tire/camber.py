@@ -51,6 +51,10 @@ class Camber(Effect):
         """The file knows no camber: every tire answers to it (Pacejka, 3rd ed., 4.3.1)."""
         return not data.nominal.knows_camber
 
+    def same_fault(self, data: Context) -> str:
+        """A model that answers to camber answers to a channel with another gain."""
+        return "a wrong sign or gain of the camber channel" if data.nominal.knows_camber else ""
+
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the longitudinal friction where nothing brakes or drives."""
         names = tuple(p.name for p in self.parameters if p.name != "friction_loss_x")

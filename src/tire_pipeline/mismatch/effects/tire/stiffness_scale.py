@@ -32,12 +32,15 @@ class StiffnessScale(Effect):
         "force_gain": "a gain also moves the peak",
         "unit_error": "a wrong unit is an exact ratio",
     }
-    same_fault = "a wrong gain of the slip channel"
     experiment = (
         "turn the wheel by a known angle and read the slip channel; record small-slip sweeps at three loads, "
         "and one sweep to full sliding"
     )
     order = 40
+
+    def same_fault(self, data: Context) -> str:
+        """The slip times a factor is the stiffness times this factor."""
+        return "a wrong gain of the slip channel"
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""

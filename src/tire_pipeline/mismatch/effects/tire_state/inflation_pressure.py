@@ -56,8 +56,11 @@ class InflationPressure(Effect):
 
     def expected(self, data: Context) -> bool:
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
-        knows = any(data.nominal.coefficients.get(n, 0.0) for n in _OF_PRESSURE)
-        return not knows and data.varies("pressure")
+        return not _known(data) and data.varies("pressure")
+
+    def same_fault(self, data: Context) -> str:
+        """A model that answers to pressure answers to a channel with another zero."""
+        return "a wrong zero or gain of the pressure channel" if _known(data) else ""
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""
@@ -99,6 +102,11 @@ class InflationPressure(Effect):
             "PPY3": c.get("PPY3", 0.0) + p["friction"],
             "PPY4": c.get("PPY4", 0.0) + p["friction_curvature"],
         }
+
+
+def _known(data: Context) -> bool:
+    """Whether the file answers to pressure."""
+    return any(data.nominal.coefficients.get(n, 0.0) for n in _OF_PRESSURE)
 
 
 def _excess(data: Context, p: Parameters) -> np.ndarray:

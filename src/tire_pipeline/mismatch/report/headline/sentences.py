@@ -235,8 +235,8 @@ def _causes(
 
 def _kinds(effect: EffectReport) -> set[str]:
     """Kinds of an effect and of what cannot be excluded instead of it."""
-    each = [catalogue()[n] for n in (effect.name, *effect.alternatives)]
-    return {e.kind for e in each} | {"artefact" for e in each if e.same_fault}
+    kinds = {effect.kind, *(catalogue()[a].kind for a in effect.alternatives)}
+    return kinds | {"artefact"} if effect.same_faults else kinds
 
 
 def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
@@ -251,9 +251,7 @@ def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
 
 def _cause(effect: EffectReport, ranges: Ranges) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
-    others = [catalogue()[a] for a in effect.alternatives]
-    faults = [e.same_fault for e in (catalogue()[effect.name], *others) if e.same_fault]
-    names = [effect.title, *(e.title for e in others), *faults]
+    names = [effect.title, *(catalogue()[a].title for a in effect.alternatives), *effect.same_faults]
     stretches = stretches_of(effect, ranges)
     apart = "this recording cannot tell them apart" if len(names) > 1 else ""
     seen = f"seen {stretches}" if stretches else ""
