@@ -60,3 +60,29 @@ def test_a_load_offset_is_not_looked_for_at_one_load(braked):
     data = prepare(file, recording).data
     assert catalogue()["load_offset"].absent(data) == "normal_load does not vary"
     assert catalogue()["load_gain"].absent(data) is None
+
+
+@pytest.mark.slow
+def test_rolling_resistance_is_not_only_crosstalk(braked):
+    """It is physics that files leave to My: a leak of the load was named, a fault of the recording, alone."""
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    explained = explain_mismatch(file, run.assign(fx=run["fx"] - 0.02 * run["normal_load"]))
+    assert "rolling_resistance" in {name for names, _ in explained.sets for name in names}
+
+
+@pytest.mark.slow
+def test_a_wheel_that_the_load_turns_is_compliance(braked):
+    """It was a conicity and an offset of the slip angle, each with a probability above 0.98."""
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    turned = run["slip_angle"] + 0.005 * (run["normal_load"] / file.coefficients["FNOMIN"] - 1.0)
+    assert named(file, run.assign(slip_angle=turned)) == ["compliance"]
+
+
+@pytest.mark.slow
+def test_a_drift_of_the_load_is_a_drift(braked):
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    drifting = run["normal_load"] + 400.0 * run["time"] / run["time"].iloc[-1]
+    assert named(file, run.assign(normal_load=drifting)) == ["sensor_drift"]

@@ -38,6 +38,7 @@ class Crosstalk(Effect):
         "slip_angle_offset": "an offset acts without the other force",
         "plysteer_conicity": "a leak of the load stays on the rig when the tire is turned on its rim",
         "force_offset": "an offset is the same at every load",
+        "rolling_resistance": "rolling resistance turns its sign when the wheel rolls the other way",
     }
     experiment = "record a pure brake ramp, a pure slip-angle sweep, and straight rolling at three loads"
     order = 86

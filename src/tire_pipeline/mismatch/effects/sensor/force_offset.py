@@ -29,6 +29,7 @@ class ForceOffset(Effect):
         "plysteer_conicity": "conicity grows with load",
         "slip_angle_offset": "an offset of slip angle does not show where the tire slides",
         "sensor_drift": "drift changes over time",
+        "rolling_resistance": "rolling resistance grows with load",
     }
     experiment = "record straight rolling at three loads; read the load cell with the wheel lifted"
     order = 85
