@@ -30,7 +30,7 @@ class LoadGain(Effect):
         "friction_scale": "friction leaves the slope at zero slip as it is",
         "load_sensitivity": "another change with load leaves the nominal load as it is",
     }
-    experiment = "load the wheel with known weights, and compare the load channel with them"
+    experiment = "hang known weights on the wheel, and compare the load channel with them"
     order = 8
 
     def misread(self, true: np.ndarray, p: Parameters) -> np.ndarray:

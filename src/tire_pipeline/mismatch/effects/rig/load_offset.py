@@ -30,7 +30,7 @@ class LoadOffset(Effect):
         "load_sensitivity": "another change with load leaves the nominal load as it is",
         "crosstalk": "a leak of the load is there without slip, too",
     }
-    experiment = "read the load cell with the wheel lifted"
+    experiment = "look at the load channel with the wheel lifted"
     order = 8
 
     def inputs(self, state: State, data: Context, p: Parameters) -> None:

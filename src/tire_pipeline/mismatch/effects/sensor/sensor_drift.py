@@ -59,7 +59,7 @@ class SensorDrift(Effect):
         """Return the drifts, and the lag of a drift that settles."""
         if start["normal_load"]:
             return ("normal_load",)
-        drifts = ("fy", "fx")
+        drifts = tuple(p.name for p in self.parameters if p.output)
         return (*drifts, "lag") if start["lag"] else drifts
 
     def outside(self, data: Context, p: Parameters) -> bool:

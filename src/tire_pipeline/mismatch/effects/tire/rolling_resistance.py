@@ -29,7 +29,7 @@ class RollingResistance(Effect):
         "force_offset": "an offset does not change with load",
         "slip_ratio_offset": "an offset of the slip ratio does not show where the tire slides",
     }
-    experiment = "roll freely both ways at three loads"
+    experiment = "record free rolling both ways at three loads"
     order = 50
 
     def absent(self, data: Context) -> str | None:
