@@ -16,7 +16,6 @@ from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 FAMILY = "load"
-_PARABOLA = 2
 
 
 def load_curvature(data: Data) -> list[dict[str, Array]]:
@@ -36,10 +35,9 @@ def load_curvature(data: Data) -> list[dict[str, Array]]:
         return []
     base = data.simulation.base
     weight = np.sqrt(sum(force**2 for force in base.values()))
-    powers = np.vander(data.nominal.load_excess(data.get("normal_load")), _PARABOLA + 1, increasing=True)
-    line, parabola = powers[:, :_PARABOLA], powers[:, _PARABOLA]
-    fitted = np.linalg.lstsq(line * weight[:, None], parabola * weight, rcond=None)[0]
-    bend = parabola - line @ fitted
+    excess = data.nominal.load_excess(data.get("normal_load"))
+    line, parabola = np.column_stack([np.ones(excess.size), excess]), excess**2
+    bend = parabola - line @ np.linalg.lstsq(line * weight[:, None], parabola * weight, rcond=None)[0]
     return [_changed(data, name, bend) for name in ("log_friction", "log_stiffness")]
 
 
