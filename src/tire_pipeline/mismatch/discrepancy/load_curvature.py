@@ -7,7 +7,7 @@ lateral one alike, and nothing of the level or of the slope over load, which the
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,7 +18,7 @@ Array = np.ndarray
 FAMILY = "load"
 
 
-def load_curvature(data: Data) -> list[dict[str, Array]]:
+def load_curvature(data: Data) -> list[Mapping[str, Array]]:
     """Return the change of the forces by the friction, and by the stiffness; nothing at one load.
 
     Parameters
@@ -38,14 +38,18 @@ def load_curvature(data: Data) -> list[dict[str, Array]]:
     excess = data.nominal.load_excess(data.get("normal_load"))
     line, parabola = np.column_stack([np.ones(excess.size), excess]), excess**2
     bend = parabola - line @ np.linalg.lstsq(line * weight[:, None], parabola * weight, rcond=None)[0]
-    return [_changed(data, name, bend) for name in ("log_friction", "log_stiffness")]
+    return [_changed(data, friction=bend), _changed(data, stiffness=bend)]
 
 
-def _changed(data: Data, name: str, by: Array) -> dict[str, Array]:
-    """Return the derivative of the forces by a change of the tire, times ``by``."""
+def _changed(
+    data: Data, *, friction: Array | float = 0.0, stiffness: Array | float = 0.0
+) -> dict[str, Array]:
+    """Return the derivative of the forces by a change of friction or stiffness, times its size."""
     simulation, ends = data.simulation, []
     for sign in (1.0, -1.0):
-        state = replace(simulation.as_recorded(), **{name: sign * DIFFERENCE * by})
+        state = simulation.as_recorded()
+        state.log_friction = state.log_friction + sign * DIFFERENCE * friction
+        state.log_stiffness = state.log_stiffness + sign * DIFFERENCE * stiffness
         simulation.relax(state)
         ends.append(simulation.forces(state))
     up, down = ends
