@@ -1,5 +1,7 @@
 """Before any explanation: whether forces are cut at a limit of their sensor."""
 
+from itertools import pairwise
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -174,3 +176,45 @@ def test_a_limit_of_a_drive_to_one_side_is_at_its_own_end(tire, side):
 
 def _middle(x):
     return 0.5 * (x.min() + x.max())
+
+
+def _run(tire, slip_angle, normal_load):
+    """A run of a tire whose inputs are recorded as they are."""
+    time = 0.02 * np.arange(slip_angle.size)
+    fy = tire.forces(slip_angle=slip_angle, normal_load=normal_load).fy
+    fy = fy + 20.0 * np.random.default_rng(0).standard_normal(time.size)
+    return pd.DataFrame({"time": time, "slip_angle": slip_angle, "normal_load": normal_load, "fy": fy})
+
+
+def _levels(*levels, held=600, ramp=40):
+    """Each level held, with a ramp to the next one."""
+    stands = [np.full(held, level) for level in levels]
+    ramps = [np.linspace(a, b, ramp + 2)[1:-1] for a, b in pairwise(levels)]
+    return np.concatenate([part for pair in zip(stands, [*ramps, []], strict=True) for part in pair])
+
+
+@pytest.mark.parametrize("loads", [(2050.0, 5750.0), (2000.0, 5000.0, 3500.0)])
+def test_a_load_that_is_set_to_levels_is_not_clipped(tire, loads):
+    """A commanded load was called clipped with 0.98: its largest and smallest level are held exactly."""
+    load = _levels(*loads)
+    slip = 0.2 * np.sin(2.0 * np.pi * np.arange(load.size) / 250.0)
+    assert _limits(tire, _run(tire, slip, load)) == []
+
+
+@pytest.mark.parametrize("seed", DRAWS)
+def test_a_slip_angle_that_waits_at_the_ends_of_a_sweep_is_not_clipped(tire, seed):
+    wait = 10 + 5 * (seed % 3)
+    slip = np.tile(_levels(-0.2, 0.2, -0.2, held=wait, ramp=100)[:-wait], 9)
+    load = 4000.0 + 15.0 * np.random.default_rng(seed).standard_normal(slip.size)
+    assert _limits(tire, _run(tire, slip, load)) == []
+
+
+def test_an_input_that_is_cut_is_clipped(tire):
+    """The true input leaves its channel, and the forces with it."""
+    turn = 2.0 * np.pi * np.arange(2000)
+    slip, load = 0.06 * np.sin(turn / 250.0), 4000.0 + 2000.0 * np.sin(turn / 850.0)
+    cut = {"slip_angle": np.clip(slip, -0.045, 0.045), "normal_load": np.minimum(load, 5200.0)}
+    limits = {"slip_angle": (-0.045, 0.045), "normal_load": (-np.inf, 5200.0)}
+    for name, recorded in cut.items():
+        (found,) = _limits(tire, _run(tire, slip, load).assign(**{name: recorded}))
+        assert (found.channel, found.limits) == (name, limits[name])

@@ -1,4 +1,4 @@
-"""A force channel that cannot go beyond a limit."""
+"""A channel that cannot go beyond a limit."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ class Clipping(Effect):
     """The recorded force stops at a limit, whatever the tire does.
 
     Covers channels of which many samples in time stand exactly at one end of their range, either or both,
-    and steady points of which more stand at a limit than chance explains. Not covered: a limit that noise or
-    a filter after it has blurred: without samples at it there is no limit to see.
+    and steady points of whose forces more stand at a limit than chance explains. Slip and load also stand
+    where a test holds them: they are clipped only where the forces move on meanwhile. Not covered: a limit
+    that noise or a filter after it has blurred: without samples at it there is no limit to see.
     """
 
     name = "clipping"
@@ -86,25 +87,84 @@ def _at_the_ends(x: Array, held: Callable[[Array], bool]) -> tuple[Array | None,
 
 _STEPS_OF_CREST = 10
 _BY_CHANCE = 1e-3
-_HELD_FROM = 0.6
-"""Of the samples: a channel that stands at one value for longer is held there, unless it is a force."""
 _DECIMALS = range(-3, 12)
 
 
 def _held(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Array) -> bool:
     """Whether a channel stands at a value because it is held there, and not because it can't go beyond.
 
-    An input is held for most of a test. A force rests at zero, or as long as slip and load stand still. Where
-    the simulated force is in the other half of the range, the recorded one was not on its way to a limit.
+    A test sets slip and load: they are held, unless the forces move on while they stand. A force rests at
+    zero, or as long as slip and load stand still. Where the simulated force is in the other half of the
+    range, the recorded one was not on its way to a limit.
     """
+    if name not in FORCE_CHANNELS:
+        return "_steady_points" in channels or not forces_move_on(name, channels, simulate, at)
     x, simulated = channels[name], simulate(channels).get(name)
     middle = _middle(x)
     if simulated is not None and np.median((simulated[at] - middle) * (x[at] - middle)) < 0.0:
         return True
-    if at.mean() < _HELD_FROM:
-        return False
     moves = any(np.ptp(channels[n][at]) > 0.0 for n in SLIP_AND_LOAD if n in channels)
-    return name not in FORCE_CHANNELS or bool(np.all(channels[name][at] == 0.0)) or not moves
+    return bool(np.all(x[at] == 0.0)) or not moves
+
+
+def forces_move_on(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Array) -> bool:
+    """Whether forces follow an input beyond the value at which its channel stands.
+
+    Beyond a limit the true input leaves its channel and comes back. The forces then leave the simulated ones
+    by their slope, times about half a sine over the time at the limit. As much of half a sine is in any
+    other stretch of the residual by noise and by what the model gets wrong: Fisher's ratio compares both.
+
+    Parameters
+    ----------
+    name : str
+        Slip or load.
+    channels : mapping of ndarray, shape (n,)
+    simulate : callable
+        Channels -> forces of the model, N or N m.
+    at : ndarray of bool, shape (n,)
+        Where the channel stands at an end of its range.
+    """
+    x = channels[name]
+    stands = _stretches(at, least=3)
+    length = int(np.median(np.diff(stands, axis=1)))
+    between = (x > np.nanmin(x)) & (x < np.nanmax(x))
+    pieces = [_cut(stretch, length) for stretch in _stretches(between, least=length)]
+    others = np.concatenate(pieces or [stands[:0]])
+    if not len(others):
+        return False
+    outwards = np.sign(x - _middle(x)) * 1e-3 * np.ptp(x)
+    base, moved = simulate(channels), simulate({**channels, name: x + outwards})
+    there, elsewhere = [], []
+    for output, force in base.items():
+        if output in channels:
+            residual, slope = np.nan_to_num(channels[output] - force), np.nan_to_num(moved[output] - force)
+            there += [_half_sine(residual[a:b], slope[a:b]) for a, b in stands]
+            elsewhere += [_half_sine(residual[a:b], slope[a:b]) for a, b in others]
+    power = float(np.mean(np.square(elsewhere))) if elsewhere else 0.0
+    if power == 0.0 or np.sum(there) <= 0.0:
+        return False
+    ratio = float(np.mean(np.square(there))) / power
+    return bool(scipy.stats.f.sf(ratio, len(there), len(elsewhere)) < _BY_CHANCE)
+
+
+def _stretches(mask: Array, least: int) -> Array:
+    """Return first sample and the one after the last of each stretch of at least so many, shape (k, 2)."""
+    edges = np.flatnonzero(np.diff(np.r_[0, mask.astype(np.int8), 0])).reshape(-1, 2)
+    return edges[np.diff(edges, axis=1)[:, 0] >= least]
+
+
+def _cut(stretch: Array, length: int) -> Array:
+    """Cut a stretch into pieces of one length, shape (k, 2)."""
+    first = np.arange(stretch[0], stretch[1] - length + 1, length)
+    return np.stack([first, first + length], axis=1)
+
+
+def _half_sine(residual: Array, slope: Array) -> float:
+    """How much of the slope, times half a sine, is in a residual; a constant is of no account."""
+    shape = slope * np.sin(np.pi * (np.arange(slope.size) + 0.5) / slope.size)
+    shape = shape - shape.mean()
+    size = float(np.linalg.norm(shape))
+    return float(residual @ shape) / size if size > 0.0 else 0.0
 
 
 def _middle(x: Array) -> float:
