@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.model.channels import largest, white_noise
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_AS_STORED = float(np.finfo(np.float32).eps)
+AS_STORED = float(np.finfo(np.float32).eps)
 """Noise below this part of the largest force is the rounding of a file with single precision."""
 
 
@@ -88,7 +88,7 @@ def estimate_noise(data: Data, residual: dict[str, Array], *, stated: bool = Tru
     for name, r in residual.items():
         seen = white_noise(r) if data.time is not None else _between_neighbours(data, r)
         known = _known(data, name) if stated else np.zeros(data.size)
-        least = _AS_STORED * largest(data.recorded[name]) + 1e-9
+        least = AS_STORED * largest(data.recorded[name]) + 1e-9
         out[name] = ForceNoise(np.sqrt(max(seen, least) ** 2 + known**2))
     return out
 

@@ -112,7 +112,7 @@ def assembled(it: Explained) -> MismatchReport:
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
-    rivals = [each.names for each in answer.rivals]
+    rivals = [each.names for each in answer.rivals] or answer.beside_unnamed
     added = bool(put_in.names or prepared.findings or not effects)
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
     told = told.beside(

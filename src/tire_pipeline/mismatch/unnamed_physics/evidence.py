@@ -19,6 +19,8 @@ Array = np.ndarray
 EACH_DRIVER = 2.0
 """Log evidence that a driver costs."""
 MOST_TERMS = 3
+_ROUNDING = 1e-12
+"""Of a product of columns."""
 
 
 @dataclass(frozen=True)
@@ -62,15 +64,24 @@ def gains(reduced: Sequence[Reduced], sets: Array) -> Array:
     if k == 1 and reduced and reduced[0].information.ndim == 1:
         return _single_gains(reduced)[sets[:, 0]]
     out = np.full(len(sets), -np.inf)
-    inverse = np.eye(k) / PRIOR_SIZE**2
     for r in reduced:
-        a = r.information[sets[:, :, None], sets[:, None, :]] + inverse
+        a = _with_prior(r.information[sets[:, :, None], sets[:, None, :]])
         b = r.score[sets]
         x = np.linalg.solve(a, b[:, :, None])[:, :, 0]
         _, determinant = np.linalg.slogdet(a)
         gain = 0.5 * np.einsum("ij,ij->i", b, x) - 0.5 * determinant - k * np.log(PRIOR_SIZE)
         out = np.logaddexp(out, r.log_weight + gain)
     return out
+
+
+def _with_prior(information: Array) -> Array:
+    """Return the precision of a set's coefficients, shape (..., k, k).
+
+    Beside little noise the prior is below rounding, and two terms that are alike would leave it singular.
+    """
+    largest = np.max(np.diagonal(information, axis1=-2, axis2=-1), axis=-1)
+    least = PRIOR_SIZE**-2 + _ROUNDING * largest
+    return np.asarray(information + np.eye(information.shape[-1]) * least[..., None, None])
 
 
 def _single_gains(reduced: Sequence[Reduced]) -> Array:
@@ -88,7 +99,7 @@ def coefficients(reduced: Sequence[Reduced], terms: Sequence[int]) -> tuple[Arra
     i = np.asarray(terms, int)
     best, found = -np.inf, (np.zeros(i.size), np.zeros((i.size, i.size)))
     for r in reduced:
-        a = r.information[np.ix_(i, i)] + np.eye(i.size) / PRIOR_SIZE**2
+        a = _with_prior(r.information[np.ix_(i, i)])
         mean = np.linalg.solve(a, r.score[i])
         weight = r.log_weight + 0.5 * float(r.score[i] @ mean) - 0.5 * float(np.linalg.slogdet(a)[1])
         if weight > best:

@@ -16,7 +16,7 @@ _IN_RADII = (0.1, 4.0)
 class RelaxationLength(Effect):
     """Slip acts on the tire only after a distance rolled: a lag that is shorter at speed.
 
-    Covers a length that is constant or falls with slip, and that changes with load (PTY2) in proportion;
+    Covers a length that is constant, falls with slip, or changes with load (PTY2) in proportion, or both;
     one for both slips, or another one along the wheel (PTX1) where both forces move. A tire's length is 0.1
     to 6 of its radii. Not covered: a lag of camber and of the aligning moment (gyroscopic couple), of
     second order.
@@ -49,14 +49,20 @@ class RelaxationLength(Effect):
     order = 30
 
     def starts(self, data: Context) -> list[dict[str, float]]:
-        """Two sizes, in radii of the wheel, with the length constant or falling with slip."""
+        """Two sizes, in radii of the wheel, with the length constant or falling with slip, or with load."""
         radius, zero = data.nominal.radius, self.zeros(data)
-        return [{**zero, "length": s * radius, "fades": f} for s in (0.3, 1.2) for f in (0.0, 1.0)]
+        loads = (0.0, self.parameter("load").prior) if data.varies("normal_load") else (0.0,)
+        return [
+            {**zero, "length": s * radius, "fades": f, "load": by_load}
+            for s in (0.3, 1.2)
+            for f in (0.0, 1.0)
+            for by_load in loads
+        ]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
-        """Return the length, its change with load, and along the wheel; it fades or not."""
+        """Return the length, its change with load if it has one, and along the wheel; it fades or not."""
         names = ["length"]
-        if data.varies("normal_load"):
+        if start["load"]:
             names.append("load")
         if data.simulation.driven("fx") and data.simulation.driven("fy"):
             names.append("along")

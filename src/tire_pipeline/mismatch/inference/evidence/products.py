@@ -11,6 +11,7 @@ import numpy as np
 from tire_pipeline.mismatch.discrepancy.background import Background
 from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
 from tire_pipeline.mismatch.discrepancy.independent import independent, measured_apart, orders_of
+from tire_pipeline.mismatch.discrepancy.noise import AS_STORED
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
@@ -162,6 +163,8 @@ class RecordingProducts:
     def independent(self, columns: Mapping[str, Array], found: Evidence) -> dict[str, float]:
         """Return how many samples of each output are independent, by the correlation of the residual.
 
+        All are where no more than rounding is left: a simulation may be exact but for one effect.
+
         Parameters
         ----------
         columns : mapping of ndarray, shape (n, m + 1)
@@ -173,7 +176,7 @@ class RecordingProducts:
         for o, x in columns.items():
             left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
             left = left - self.beside[o] @ found.weights[o].known(self.beside[o].T @ left / left.size)
-            out[o] = independent(left, self._orders)
+            out[o] = independent(left, self._orders) if rms(left) > AS_STORED else float(left.size)
         return out
 
     def of(self, columns: Mapping[str, Array], rows: Array | None = None) -> ColumnProducts:

@@ -82,12 +82,16 @@ class LearntSizes:
         return np.asarray(found + EXPECTED * expected + self.unnamed * unnamed - np.log(np.maximum(forms, 1)))
 
     def log_error(self, errors: Array, white: float, *, wide: bool) -> Array:
-        """Return the log probability of each size of the error; all alike where something is unnamed.
+        """Return the log probability of each size of the error; where something is unnamed, all above usual.
 
         Where the white noise of a recording is larger than the usual error, its size is that of the noise.
+        Something unnamed makes the error larger, never smaller: a recording that fits better than usual is
+        no sign of it. What its probability loses below the usual size is not given to larger ones.
         """
         away = (np.log(errors) - np.log(max(self.error, _OF_NOISE * white))) / self.spread
-        value = np.zeros(errors.size) if wide else -0.5 * away**2
+        if wide:
+            return np.asarray(-0.5 * np.minimum(away, 0.0) ** 2 - np.log(errors.size))
+        value = -0.5 * away**2
         value = value - value.max()
         return np.asarray(value - np.log(np.exp(value).sum()))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy
@@ -54,6 +54,8 @@ class SetAnswer:
     left : mapping
         Output -> likeliest size of the error beside the named set, over the largest force.
     case : OfCase
+    alone : mapping
+        Set of names -> probability with nothing unnamed.
     """
 
     sets: tuple[tuple[Names, float], ...]
@@ -64,6 +66,7 @@ class SetAnswer:
     gains: Mapping[str, float]
     left: Mapping[str, float]
     case: OfCase
+    alone: Mapping[Names, float] = field(default_factory=dict)
 
     def single(self, name: str) -> tuple[Change, ...]:
         """Return an effect alone, where its own fit has ended."""
@@ -82,6 +85,17 @@ class SetAnswer:
         if self.sets or self.unnamed + self.agreement >= 1.0 - LEVEL:
             return ()
         return tuple(sorted(self.likely, key=lambda each: -self.probabilities[each.names]))
+
+    @property
+    def beside_unnamed(self) -> tuple[Names, ...]:
+        """Something unnamed, as an empty set, and the sets that would do instead of it.
+
+        The likeliest first. Nothing where names or rivals stand out, or where no set would do.
+        """
+        if self.sets or self.rivals:
+            return ()
+        able = [names for names, p in self.alone.items() if names and p > OPEN]
+        return ((), *sorted(able, key=lambda names: -self.alone[names])) if able else ()
 
     @property
     def names(self) -> Names:
@@ -120,7 +134,8 @@ def answered(
     sets = _named(probabilities, without, best, hidden, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
-    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
+    gains = _gains(case, evidence)
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case, without)
 
 
 def nothing(case: OfCase) -> SetAnswer:

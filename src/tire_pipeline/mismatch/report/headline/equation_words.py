@@ -52,8 +52,10 @@ def of_equation(found: UnnamedReport | None) -> str:
 
 def _resembles(found: UnnamedReport, rivals: Sequence[Sequence[str]]) -> str:
     """Say which effects it could be taken for, if any."""
-    if not found.instead_of and rivals:
-        return "has several explanations in the catalogue"
+    named = [names for names in rivals if names]
+    if not found.instead_of and named:
+        explanations = "an explanation" if len(named) == 1 else "several explanations"
+        return f"has {explanations} in the catalogue"
     if not found.instead_of:
         return "does not look like any effect of the catalogue"
     names = " and ".join(catalogue()[name].title.lower() for name in found.instead_of)

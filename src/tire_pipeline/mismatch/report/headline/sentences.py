@@ -28,6 +28,7 @@ _SAID_IF_UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
     "does not show"
 )
+_NO_NAME = "a cause that the catalogue does not have"
 _EITHER = "a fault of the recording or something that the model leaves out"
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 
@@ -56,7 +57,8 @@ def head(
     even : mapping, optional
         Output -> how it is off throughout.
     rivals : sequence of sequence of str
-        Sets of effects of which one is the answer, where no name stands out.
+        Sets of effects of which one is the answer, where no name stands out. An empty one is a cause without
+        a name.
     added : bool
         Whether anything of what is named is in the corrected model.
     """
@@ -212,7 +214,8 @@ def _causes(
     """The verdict, the causes, and the unexplained residual."""
     left = _what_is_left(remainder, ranges)
     if not effects and rivals:
-        sets = [" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED]]
+        titles = (" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED])
+        sets = [each or _NO_NAME for each in titles]
         sets += ["others"] if len(rivals) > len(sets) else []
         return f"I can't tell which of these explains the difference{left}: {listed(sets)}"
     if not effects:
