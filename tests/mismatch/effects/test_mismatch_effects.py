@@ -6,11 +6,11 @@ import pytest
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_interval
-from tire_pipeline.mismatch.effects.shared import harmonic_power
+from tire_pipeline.mismatch.effects.shared import harmonic_power, own_relaxation
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.nominal import Reference
-from tire_pipeline.mismatch.recording.prepare import own_relaxation, prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "

@@ -144,6 +144,14 @@ def test_what_may_be_unnamed_or_nothing_has_no_rivals(softer):
     assert not softer.answer.rivals
 
 
+def test_sets_that_would_do_stand_beside_something_unnamed(softer):
+    alone = {(): 0.2, ("wear",): 0.1, ("camber",): 0.3, ("compliance",): 0.01}
+    answer = replace(softer.answer, sets=(), unnamed=0.6, agreement=0.0, alone=alone)
+    assert answer.beside_unnamed == ((), ("camber",), ("wear",))
+    assert replace(answer, alone={(): 1.0}).beside_unnamed == ()
+    assert softer.answer.beside_unnamed == ()
+
+
 def test_probabilities_in_the_report_hold_95_percent_and_no_more_sets_than_that_takes(softer):
     probabilities = [p for _, p in assembled(softer).probabilities]
     assert 0.95 < sum(probabilities) <= 1.0 + 1e-9

@@ -101,6 +101,14 @@ def test_explanations_of_which_none_stands_out_are_listed():
     assert many.split(".")[0].endswith(", or others")
 
 
+def test_a_cause_without_a_name_stands_beside_what_would_do_as_well():
+    """A lag in distance explained all, and the page said that no effect of the catalogue does."""
+    told = said("unexplained", left=LEFT, unnamed=FOUND, rivals=[(), ("relaxation_length",)])
+    title = catalogue()["relaxation_length"].title
+    assert f": a cause that the catalogue does not have or {title}" in told.text
+    assert any("has an explanation in the catalogue" in remark for remark in told.remarks)
+
+
 def test_what_an_equation_predicts_of_unseen_sweeps_was_no_noise():
     noisy = {"fy": replace(FIT["fy"], noise_floor=100.0), "fx": OutputFit(30.0, 25.0, 25.0, 24.0, 26.0)}
     told = with_unnamed(noisy, FOUND)

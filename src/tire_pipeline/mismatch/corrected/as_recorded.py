@@ -64,6 +64,8 @@ def as_recorded(
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
     alone = replace(corrected, instead=())
     of_fit = after if same or not corrected.instead else _errors(alone, recording, fit)
+    if same and analysis.data.simulation.own_relaxation:  # what lacks the file's lag leaves more than noise
+        return {o: replace(m, noise_floor=fit[o].noise_floor) for o, m in moved.items()}
     return {
         o: replace(m, noise_floor=_noise(fit[o].noise_floor, of_fit[o][used], inside[o]))
         for o, m in moved.items()

@@ -17,6 +17,7 @@ from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficient
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.effects.shared import own_relaxation
 from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.data import NO_REFERENCE, Data
 from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
@@ -25,7 +26,7 @@ from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.model.residual import partly, rms
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, own_relaxation
+from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
@@ -315,7 +316,7 @@ class CorrectedModel:
             self.tire,
             recorded,
             beside=beside,
-            own_relaxation=own_relaxation(self.tire) if self._changed else None,
+            own_relaxation=own_relaxation(self.tire) if self._changed and self.reference.relaxes else None,
             reference=self.reference,
             way=way,
         )

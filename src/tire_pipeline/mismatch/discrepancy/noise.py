@@ -18,8 +18,9 @@ from tire_pipeline.mismatch.model.channels import largest, white_noise
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-AS_STORED = float(np.finfo(np.float32).eps)
-"""Noise below this part of the largest force is the rounding of a file with single precision."""
+AS_STORED = 1e-5
+"""Noise below this part of the largest force is rounding, of five printed digits. With less, the matrices of
+exact simulations would be singular."""
 
 
 @dataclass(frozen=True)

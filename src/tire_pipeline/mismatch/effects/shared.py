@@ -160,3 +160,17 @@ def relaxation_lengths(tire: TireModel) -> dict[str, float]:
         normal_load=c["FNOMIN"], limits="ignore", outputs=tuple(outputs.values())
     )
     return {slip: float(getattr(found, output)) for slip, output in outputs.items()}
+
+
+def own_relaxation(tire: TireModel) -> dict[str, float] | None:
+    """Return the relaxation lengths that the file itself states, m."""
+    c = tire.coefficients
+    missing = getattr(tire, "defaulted", {})
+    stated = set()
+    if c.get("PTY1", 0.0) > 0.0 and "PTY1" not in missing and c.get("PTY2", 0.0) > 0.0:
+        stated.add("slip_angle")
+    if c.get("PTX1", 0.0) > 0.0 and "PTX1" not in missing:
+        stated.add("slip_ratio")
+    if not stated:
+        return None
+    return {slip: length for slip, length in relaxation_lengths(tire).items() if slip in stated}

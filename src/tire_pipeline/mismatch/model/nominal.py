@@ -56,6 +56,8 @@ class Reference:
         Loads that the effects were fitted to, N.
     measured : set of str, optional
         Channels that were recorded.
+    relaxes : bool
+        Whether the forces follow slip as late as the file itself states.
     """
 
     scales: Scales | None = None
@@ -63,6 +65,7 @@ class Reference:
     speed_nominal: float | None = None
     load_range: tuple[float, float] | None = None
     measured: Set[str] | None = None
+    relaxes: bool = True
 
     def to_sidecar(self) -> dict[str, object]:
         """Return the numbers among it by name."""

@@ -13,9 +13,10 @@ from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.effects.shared import relaxation_lengths
-from tire_pipeline.mismatch.model.channels import RecordedChannels
+from tire_pipeline.mismatch.effects.shared import own_relaxation
+from tire_pipeline.mismatch.model.channels import RecordedChannels, largest
 from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
 from tire_pipeline.mismatch.recording.given import SPIKES, check_tire, usable_numbers, without_values
@@ -211,7 +212,10 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         start=start,
         present=present,
     )
-    data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
+    lagged, at_once = (
+        Data.of(tire, recorded, beside=beside, own_relaxation=r, choices=choices) for r in (own, None)
+    )
+    data = _better_followed(lagged, at_once, notes) if own else at_once
     left_out = {n: gone for n, gone in out.items() if gone.size}
     recording, questions = without_values(recording, left_out), [q for q in asked if q]
     return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
@@ -349,15 +353,19 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
         )
 
 
-def own_relaxation(tire: Any) -> dict[str, float] | None:
-    """Return the relaxation lengths that the file itself states, m."""
-    c = tire.coefficients
-    missing = getattr(tire, "defaulted", {})
-    stated = set()
-    if c.get("PTY1", 0.0) > 0.0 and "PTY1" not in missing and c.get("PTY2", 0.0) > 0.0:
-        stated.add("slip_angle")
-    if c.get("PTX1", 0.0) > 0.0 and "PTX1" not in missing:
-        stated.add("slip_ratio")
-    if not stated:
-        return None
-    return {slip: length for slip, length in relaxation_lengths(tire).items() if slip in stated}
+def _better_followed(lagged: Data, at_once: Data, notes: list[str]) -> Data:
+    """Leave out the relaxation that the file states where the forces follow slip better without it.
+
+    A log of a simulation without it, or of steady forces, has none.
+    """
+    left = [
+        sum(float(np.mean(x**2)) / largest(data.recorded[o]) ** 2 for o, x in residual(data, []).items())
+        for data in (lagged, at_once)
+    ]
+    if left[0] < left[1]:
+        return lagged
+    if left[0] > left[1]:
+        stated = {s: x for s, x in (lagged.simulation.own_relaxation or {}).items() if lagged.varies(s)}
+        lengths = ", ".join(f"{length:.2g} m of {slip}" for slip, length in stated.items())
+        notes.append(f"the forces follow slip without the relaxation that the file states ({lengths})")
+    return at_once

@@ -13,14 +13,12 @@ import numpy as np
 from tire_pipeline.mismatch.discrepancy.form_error import USUAL_FORM_ERROR
 from tire_pipeline.mismatch.unnamed_physics.library import Term
 from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE
-from tire_pipeline.mismatch.unnamed_physics.products import Reduced
+from tire_pipeline.mismatch.unnamed_physics.products import Reduced, definite
 
 Array = np.ndarray
 EACH_DRIVER = 2.0
 """Log evidence that a driver costs."""
 MOST_TERMS = 3
-_ROUNDING = 1e-12
-"""Of a product of columns."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def gains(reduced: Sequence[Reduced], sets: Array) -> Array:
         return _single_gains(reduced)[sets[:, 0]]
     out = np.full(len(sets), -np.inf)
     for r in reduced:
-        a = _with_prior(r.information[sets[:, :, None], sets[:, None, :]])
+        a = definite(r.information[sets[:, :, None], sets[:, None, :]], PRIOR_SIZE**-2)
         b = r.score[sets]
         x = np.linalg.solve(a, b[:, :, None])[:, :, 0]
         _, determinant = np.linalg.slogdet(a)
@@ -74,21 +72,11 @@ def gains(reduced: Sequence[Reduced], sets: Array) -> Array:
     return out
 
 
-def _with_prior(information: Array) -> Array:
-    """Return the precision of a set's coefficients, shape (..., k, k).
-
-    Beside little noise the prior is below rounding, and two terms that are alike would leave it singular.
-    """
-    largest = np.max(np.diagonal(information, axis1=-2, axis2=-1), axis=-1)
-    least = PRIOR_SIZE**-2 + _ROUNDING * largest
-    return np.asarray(information + np.eye(information.shape[-1]) * least[..., None, None])
-
-
 def _single_gains(reduced: Sequence[Reduced]) -> Array:
     """The same of terms that were looked at one by one, shape (m,)."""
     out: Array = np.full(reduced[0].score.size, -np.inf)
     for r in reduced:
-        a = r.information + 1.0 / PRIOR_SIZE**2
+        a = np.maximum(r.information, 0.0) + 1.0 / PRIOR_SIZE**2
         gain = 0.5 * r.score**2 / a - 0.5 * np.log(a) - np.log(PRIOR_SIZE)
         out = np.logaddexp(out, r.log_weight + gain)
     return out
@@ -99,7 +87,7 @@ def coefficients(reduced: Sequence[Reduced], terms: Sequence[int]) -> tuple[Arra
     i = np.asarray(terms, int)
     best, found = -np.inf, (np.zeros(i.size), np.zeros((i.size, i.size)))
     for r in reduced:
-        a = _with_prior(r.information[np.ix_(i, i)])
+        a = definite(r.information[np.ix_(i, i)], PRIOR_SIZE**-2)
         mean = np.linalg.solve(a, r.score[i])
         weight = r.log_weight + 0.5 * float(r.score[i] @ mean) - 0.5 * float(np.linalg.slogdet(a)[1])
         if weight > best:

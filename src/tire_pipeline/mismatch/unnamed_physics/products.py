@@ -23,6 +23,8 @@ Array = np.ndarray
 FOLDS = 5
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
+_ROUNDING = 1e-12
+"""Of a matrix of products, over its largest element."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,22 @@ class Reduced:
     information: Array
     score: Array
     log_weight: float
+
+
+def definite(products: Array, prior: float) -> Array:
+    """Return the precision of coefficients: products of their columns, and that of their prior.
+
+    Beside the noise of an exact simulation the prior is below rounding, and two columns that are alike would
+    leave the matrix singular.
+
+    Parameters
+    ----------
+    products : ndarray, shape (..., k, k)
+    prior : float
+    """
+    largest = np.max(np.diagonal(products, axis1=-2, axis2=-1), axis=-1, initial=0.0)
+    least = prior + _ROUNDING * largest
+    return np.asarray(products + np.eye(products.shape[-1]) * least[..., None, None])
 
 
 @dataclass(frozen=True)
@@ -220,8 +238,8 @@ class Columns:
         key = (number, every, kept.tobytes(), o)
         if key not in self._factors:
             s = self.problem.sizes[number][o]
-            a = self._nn[every][o][kept].sum(axis=0) * s[:, None] * s[None, :] + np.eye(s.size)
-            lower = np.linalg.cholesky(a)
+            a = self._nn[every][o][kept].sum(axis=0) * s[:, None] * s[None, :]
+            lower = np.linalg.cholesky(definite(a, 1.0))
             self._factors[key] = (lower, 2.0 * float(np.log(np.diag(lower)).sum()))
         return self._factors[key]
 

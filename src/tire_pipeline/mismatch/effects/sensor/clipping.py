@@ -94,8 +94,8 @@ def _held(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Arra
     """Whether a channel stands at a value because it is held there, and not because it can't go beyond.
 
     A test sets slip and load: they are held, unless the forces move on while they stand. A force rests at
-    zero, or as long as slip and load stand still. Where the simulated force is in the other half of the
-    range, the recorded one was not on its way to a limit.
+    zero, or where slip and load are the same, of either sign. Where the simulated force is in the other half
+    of the range, the recorded one was not on its way to a limit.
     """
     if name not in FORCE_CHANNELS:
         return "_steady_points" in channels or not forces_move_on(name, channels, simulate, at)
@@ -103,8 +103,8 @@ def _held(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Arra
     middle = _middle(x)
     if simulated is not None and np.median((simulated[at] - middle) * (x[at] - middle)) < 0.0:
         return True
-    moves = any(np.ptp(channels[n][at]) > 0.0 for n in SLIP_AND_LOAD if n in channels)
-    return bool(np.all(x[at] == 0.0)) or not moves
+    inputs = (np.abs(channels[n][at]) for n in SLIP_AND_LOAD if n in channels)
+    return bool(np.all(x[at] == 0.0)) or all(np.allclose(each, each[0]) for each in inputs)
 
 
 def forces_move_on(name: str, channels: Mapping[str, Array], simulate: Simulate, at: Array) -> bool:

@@ -112,6 +112,33 @@ def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) 
     return replace(told, size=size, todo=told.todo if open_still or not effects else _next_after(fit))
 
 
+def with_own_lag(
+    told: Head, fit: Mapping[str, OutputFit], lengths: Mapping[str, float], lagged: Mapping[str, float]
+) -> Head:
+    """Return a head with the error beside the relaxation that the file states, which tire.forces lacks.
+
+    Parameters
+    ----------
+    told : Head
+        Whose errors are without it.
+    fit : mapping of str to OutputFit
+    lengths : mapping of str to float
+        Slip -> relaxation length that the file states, m, where the forces follow it.
+    lagged : mapping of str to float
+        Output -> RMS error with it and nothing else, N.
+    """
+    sizes = [
+        f"{o.capitalize()} {newtons(error)} N"
+        for o, error in lagged.items()
+        if newtons(error) != newtons(fit[o].rms_before)
+    ]
+    if not lengths or not sizes:
+        return told
+    stated = " and ".join(f"{length:.2g} m of {slip}" for slip, length in lengths.items())
+    lag = f"tire.forces lacks the relaxation that the file states ({stated}): with it alone the RMS error is "
+    return replace(told, size="; ".join(filter(None, [told.size, f"{lag}{', '.join(sizes)}"])))
+
+
 def without_equation(
     told: Head, verdict: str, effects: Sequence[EffectReport], fit: Mapping[str, OutputFit]
 ) -> Head:
