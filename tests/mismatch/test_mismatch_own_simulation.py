@@ -90,3 +90,14 @@ def test_the_lag_of_the_file_is_taken_where_it_is_the_better_one(relaxing, late)
     """0.1 m is nearer to none than to the 0.42 m of the file."""
     data = prepare(relaxing, a_drive(relaxing, late)).data
     assert (data.simulation.own_relaxation is not None) == (late > 0.5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1, pytest.param(2, marks=pytest.mark.long)])
+def test_noise_of_small_forces_is_noise(tire, seed):
+    """It was *undecided*: 3% of the largest force is more than a formula leaves, but it is white."""
+    drive = a_drive(tire, noise=0.0).drop(columns="fy")
+    drive["slip_angle"] *= 0.2
+    fy = tire.forces(slip_angle=drive["slip_angle"], normal_load=drive["normal_load"]).fy
+    noise = 0.03 * np.abs(fy).max() * np.random.default_rng(seed).standard_normal(len(drive))
+    assert explain_mismatch(tire, drive.assign(fy=fy + noise)).verdict == "agrees"

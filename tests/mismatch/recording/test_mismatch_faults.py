@@ -63,6 +63,18 @@ def test_a_slow_channel_in_few_digits_on_a_faster_clock_is_not_stuck(tire, recor
     assert prepare(tire, _on_a_faster_clock(coarse, 1000.0)).findings == []
 
 
+def test_a_simulated_load_that_rests_on_a_straight_is_not_stuck(tire):
+    """It was stuck with 0.98: between two corners it is exactly the same. The corners begin from rest."""
+    t = 0.02 * np.arange(3000)
+    slip = 0.06 * np.exp(-(((t - 15.0) / 2.0) ** 2)) - 0.05 * np.exp(-(((t - 45.0) / 1.5) ** 2))
+    load = 4000.0 * (1.0 + 2.5 * slip)
+    fy = tire.forces(slip_angle=slip, normal_load=load).fy
+    fy = fy + 25.0 * np.random.default_rng(0).standard_normal(t.size)
+    recording = pd.DataFrame({"time": t, "slip_angle": slip, "normal_load": load, "fy": fy})
+    assert (load == load[1500]).sum() > 100
+    assert prepare(tire, recording).findings == []
+
+
 def test_a_channel_is_stuck_on_a_faster_clock_too(tire, record):
     slow = record()
     slow.loc[1000:1100, "normal_load"] = slow.loc[1000, "normal_load"]

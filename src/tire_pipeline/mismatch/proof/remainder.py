@@ -10,6 +10,7 @@ from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gauss
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise, refined
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
+from tire_pipeline.mismatch.model.channels import white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
@@ -28,6 +29,8 @@ def unusual(
 ) -> dict[str, float]:
     """Return what is left of each output, over its largest force, where fitted models usually leave less.
 
+    What differs from one sample to the next is noise, and no model leaves less of it.
+
     Parameters
     ----------
     analysis : Analysis
@@ -37,9 +40,11 @@ def unusual(
     largest : mapping of float
         Largest force of each output by which the answer's errors are measured, N.
     """
-    whole = {o: rms(r) / largest[o] for o, r in residual(analysis.data, analysis.fit.changes).items()}
+    rest, in_time = residual(analysis.data, analysis.fit.changes), analysis.data.time is not None
+    whole = {o: rms(r) / largest[o] for o, r in rest.items()}
     capped = {o: min(left, whole[o]) for o, left in answer.left.items()}  # few samples leave its size open
-    return {o: left for o, left in capped.items() if left > usual}
+    noise = {o: white_noise(r) / largest[o] if in_time else 0.0 for o, r in rest.items()}
+    return {o: left for o, left in capped.items() if left**2 - noise[o] ** 2 > usual**2}
 
 
 def remainder(

@@ -17,8 +17,8 @@ _CHANNELS_LOOKED_AT = ("fy", "fx", "mz", *OPERATING_CHANNELS)
 class StuckChannel(Effect):
     """A live channel repeats one value exactly for a long time.
 
-    Covers exact repeats of 25 samples and more, far longer than any near them. Not covered: a channel that is
-    stuck but for its noise.
+    Covers exact repeats of 25 samples and more, far longer than any near them, that end with a jump. Not
+    covered: a channel that is stuck but for its noise.
     """
 
     name = "stuck_channel"
@@ -61,7 +61,7 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
         return None, 0.0
     starts, lengths = _runs(np.diff(x) != 0.0)
     usual = max(np.quantile(lengths, 0.9), np.quantile(_straight(x), 0.9))
-    long = lengths >= max(25, 20.0 * usual)
+    long = lengths >= max(_SHORTEST, 20.0 * usual)
     if not long.any() or (starts.size - long.sum()) < 0.3 * n / max(usual, 1.0) * 0.2:
         return None, 0.0
     low, high = np.nanmin(x), np.nanmax(x)
@@ -71,6 +71,8 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
         if x[first] in (low, high) and not (once and (x == x[first]).sum() == length):
             continue
         if length < _FAR_LONGER * _longest_beside(starts, lengths, first, length):
+            continue
+        if _at_rest(x, first, first + length - 1):
             continue
         bad[first : first + length] = True
         value = float(x[first])
@@ -92,6 +94,21 @@ def _straight(x: Array) -> Array:
     return _runs(bent)[1]
 
 
+def _at_rest(x: Array, first: int, last: int) -> bool:
+    """Whether a channel comes to a value and leaves it without a jump: then it rests there, and is not stuck.
+
+    A simulated load rests on a straight. One that was stuck jumps to where it would have been, or goes there
+    on a straight line where it was brought to a faster clock. From rest, the first step is the smallest.
+    """
+    least = _ROUNDING * float(np.ptp(x))
+    sides = (x[last : last + _SHORTEST + 1], x[max(first - _SHORTEST, 0) : first + 1][::-1])
+    away = [np.abs(side - side[0]) for side in sides if side.size > 1]
+    return all(side[1] <= max(0.5 * side[-1] / (side.size - 1), least) for side in away)
+
+
+_SHORTEST = 25
+"""Samples that a stuck channel repeats at least."""
+_ROUNDING = 1e-9
 _FAR_LONGER = 5
 _LENGTHS_AROUND = 10
 """A slow signal in few digits, at its crest or brought to a faster clock, repeats its values for ever longer
