@@ -82,12 +82,14 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     ----------
     products : RecordingProducts
     guess : Likelihood
-        With a guess of the independent samples. Forms chosen with it say how many there are; with that number
-        they are chosen again, and scored.
+        With a guess of the independent samples, from which they are counted. They are counted beside the
+        forms that explain most, as if each sample counted: beside others, what an effect leaves counts as one
+        long error. With that number forms are chosen again, and scored.
     forms : sequence of ScreenedForm
     """
     columns = _FormColumns(products, guess, forms)
-    independent = _independent(columns, guess, columns.likeliest(columns.scores(guess)))
+    each = guess.counting(dict.fromkeys(products.data.outputs, float(products.data.size)))
+    independent = _independent(columns, guess, columns.likeliest(columns.scores(each)))
     likelihood = guess.counting(independent)
     scores = columns.scores(likelihood)
     best = columns.likeliest(scores)
