@@ -2,6 +2,7 @@
 
 import pytest
 from brake_rig import brake_sweeps, weighted
+from weighed import named
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
@@ -23,3 +24,21 @@ def test_less_friction_by_the_files_own_factors_has_its_name_at_combined_slip(br
     report = explain_mismatch(file, brake_sweeps(file.replace(LMUX=factor, LMUY=factor), (-3.0, 0.0, 5.0)))
     assert [effect.name for effect in report.effects] == ["friction_scale"]
     assert report.effects[0].parameters["friction"][0] == pytest.approx(factor - 1.0, abs=0.02)
+
+
+@pytest.mark.parametrize("factor", [0.88, pytest.param(1.15, marks=pytest.mark.long)])
+def test_another_stiffness_by_the_files_own_factors_has_its_name_at_combined_slip(braked, factor):
+    """A friction level with a gain of the load was named: LKX and LKY keep the weights of combined slip."""
+    file = weighted(braked)
+    report = explain_mismatch(file, brake_sweeps(file.replace(LKX=factor, LKY=factor), (-3.0, 0.0, 5.0)))
+    assert [effect.name for effect in report.effects] == ["stiffness_scale"]
+    assert report.effects[0].parameters["stiffness"][0] == pytest.approx(factor - 1.0, abs=0.02)
+
+
+@pytest.mark.parametrize("drift", [150.0, pytest.param(-150.0, marks=pytest.mark.long)])
+def test_a_small_drift_of_brake_sweeps_is_found(braked, drift):
+    """1% of the largest force, far above noise: it counted as one long error, and all agreed."""
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    run["fy"] += drift * run["time"] / run["time"].max()
+    assert named(file, run) == ["sensor_drift"]
