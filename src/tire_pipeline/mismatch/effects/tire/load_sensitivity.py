@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import Array, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import beyond_known, safe_log1p
 
@@ -13,19 +15,21 @@ class LoadSensitivity(Effect):
 
     Covers friction that falls with load (PDX2, PDY2), one rate for both forces, and slip stiffness over
     load that falls with load (the cornering stiffness saturates: PKY1, PKY2; PKX2, PKX3), apart for the
-    lateral force where both forces move. Not covered: shape and curvature that change with load (PEY2,
-    PEX2, PEX3), and what the file already has: the change is on top of its own.
+    lateral force where both forces move. Either in proportion to the load, as Magic Formulas have it, or by
+    a power of it, as rubber on hard ground has it. Not covered: shape and curvature that change with load
+    (PEY2, PEX2, PEX3), and what the file already has: the change is on top of its own.
     """
 
     name = "load_sensitivity"
     title = "another change of friction and stiffness with load"
     equation = (
         "d = (Fz - Fz0) / Fz0; friction *= 1 + rate d; stiffness *= 1 + stiffness d; "
-        "lateral stiffness also *= 1 + lateral_stiffness d"
+        "lateral stiffness also *= 1 + lateral_stiffness d. Where `power` is 1: friction *= (Fz / Fz0)^rate, "
+        "and so on"
     )
     source = (
         "MF 5.2: mu = PDY1 + PDY2 dfz, K = PKY1 Fz0 sin(2 arctan(Fz / (PKY2 Fz0))), PKX2, PKX3 (thesis, "
-        "Appendix A); Grosch 1996 on load dependence"
+        "Appendix A); by a power: Schallamach 1952, Grosch 1996 on load dependence"
     )
     channels = ("normal_load",)
     family = "scale"
@@ -34,6 +38,7 @@ class LoadSensitivity(Effect):
         Parameter("rate", "1", -1.5, 1.5, 0.01, prior=0.2),
         Parameter("stiffness", "1", -1.5, 1.5, 0.01, prior=0.3),
         Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy", prior=0.3),
+        Parameter("power", "0 or 1", 0.0, 1.0, 0.1, form=True),
     )
     looks_like = {
         "friction_scale": "a friction factor is the same at every load",
@@ -42,6 +47,11 @@ class LoadSensitivity(Effect):
     }
     experiment = "record sweeps to full sliding at four loads or more"
     order = 40
+
+    def starts(self, data: Context) -> list[dict[str, float]]:
+        """In proportion to the load, or by a power of it."""
+        zero = self.zeros(data)
+        return [zero, {**zero, "power": 1.0}]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
@@ -55,13 +65,19 @@ class LoadSensitivity(Effect):
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
         excess = data.nominal.load_excess(state.normal_load)
-        state.log_friction = state.log_friction + safe_log1p(p["rate"] * excess)
-        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * excess)
-        state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * excess)
+
+        def log_factor(name: str) -> Array:
+            return np.asarray(
+                p[name] * safe_log1p(excess) if p["power"] >= 0.5 else safe_log1p(p[name] * excess)
+            )
+
+        state.log_friction = state.log_friction + log_factor("rate")
+        state.log_stiffness = state.log_stiffness + log_factor("stiffness")
+        state.log_stiffness_y = state.log_stiffness_y + log_factor("lateral_stiffness")
 
     def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
-        """PDX2 and PDY2; a stiffness that is linear in load has no place beside PKY2."""
-        if p["stiffness"] or p["lateral_stiffness"]:
+        """PDX2 and PDY2; a power, or a stiffness that is linear in load, has no place beside PKY2."""
+        if p["power"] or p["stiffness"] or p["lateral_stiffness"]:
             return {}
         c = tire.coefficients
         out = {}
