@@ -6,6 +6,7 @@ from weighed import named
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 
@@ -42,3 +43,17 @@ def test_a_small_drift_of_brake_sweeps_is_found(braked, drift):
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
     run["fy"] += drift * run["time"] / run["time"].max()
     assert named(file, run) == ["sensor_drift"]
+
+
+@pytest.mark.parametrize("rate", [-0.3, pytest.param(-0.2, marks=pytest.mark.long)])
+def test_friction_that_falls_with_a_power_of_the_load_has_its_name(braked, rate):
+    """A gain and an offset of the load were named: the effect knew only what is linear in the load."""
+    file = weighted(braked)
+    run = brake_sweeps(file, (-3.0, 0.0, 5.0))
+    data = prepare(file, run).data
+    by_power = {"rate": rate, "stiffness": 0.0, "lateral_stiffness": 0.0, "power": 1.0}
+    forces, base = simulate(data, [("load_sensitivity", by_power)]), data.simulation.base
+    assert len(run) == data.size
+    found = explain_mismatch(file, run.assign(**{o: run[o] + forces[o] - base[o] for o in forces}))
+    assert [effect.name for effect in found.effects] == ["load_sensitivity"]
+    assert found.effects[0].parameters["rate"][0] == pytest.approx(rate, abs=0.03)
