@@ -23,7 +23,7 @@ Array = np.ndarray
 FOLDS = 5
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
-_ROUNDING = 1e-12
+_SINGULAR = 1e-12
 """Of a matrix of products, over its largest element."""
 
 
@@ -51,7 +51,7 @@ def definite(products: Array, prior: float) -> Array:
     prior : float
     """
     largest = np.max(np.diagonal(products, axis1=-2, axis2=-1), axis=-1, initial=0.0)
-    least = prior + _ROUNDING * largest
+    least = prior + _SINGULAR * largest
     return np.asarray(products + np.eye(products.shape[-1]) * least[..., None, None])
 
 

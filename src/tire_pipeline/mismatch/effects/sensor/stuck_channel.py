@@ -100,7 +100,7 @@ def _at_rest(x: Array, first: int, last: int) -> bool:
     A simulated load rests on a straight. One that was stuck jumps to where it would have been, or goes there
     on a straight line where it was brought to a faster clock. From rest, the first step is the smallest.
     """
-    least = _ROUNDING * float(np.ptp(x))
+    least = _NO_STEP * float(np.ptp(x))
     sides = (x[last : last + _SHORTEST + 1], x[max(first - _SHORTEST, 0) : first + 1][::-1])
     away = [np.abs(side - side[0]) for side in sides if side.size > 1]
     return all(side[1] <= max(0.5 * side[-1] / (side.size - 1), least) for side in away)
@@ -108,7 +108,7 @@ def _at_rest(x: Array, first: int, last: int) -> bool:
 
 _SHORTEST = 25
 """Samples that a stuck channel repeats at least."""
-_ROUNDING = 1e-9
+_NO_STEP = 1e-9
 _FAR_LONGER = 5
 _LENGTHS_AROUND = 10
 """A slow signal in few digits, at its crest or brought to a faster clock, repeats its values for ever longer
