@@ -1,6 +1,6 @@
 """Runs ``pip install`` and says every few seconds how far it is: pip says nothing while it unpacks.
 
-What pip installs, its errors and its exit code are as without this script, which needs the standard library only.
+It installs what pip installs, and fails as pip fails. It needs the standard library only.
 """
 
 from __future__ import annotations
