@@ -15,6 +15,7 @@ from markupsafe import Markup
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from tire_pipeline.pages.drawing import inline_svg, page_style
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.safe_page import page_environment, policy
 
@@ -305,8 +306,7 @@ def _cell(value: object, digits: int, decimals: int | None = None) -> tuple[str,
             return ("–", True)
         if decimals is not None and math.isfinite(value):
             return (f"{value:,.{decimals}f}", True)
-        whole = abs(value) >= 10**digits
-        return (f"{value:,.0f}" if whole else f"{value:,.{digits}g}", True)
+        return (in_digits(value, digits), True)
     if isinstance(value, int):
         return (f"{value:,}", True)
     return (str(value), False)

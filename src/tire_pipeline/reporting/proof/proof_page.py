@@ -9,6 +9,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.reporting import HOME, Figure, Part, Table, Text, render_page
 from tire_pipeline.reporting.proof.proof_tables import METHODS, groups, misses_table
 
@@ -104,7 +105,7 @@ _SOURCE_WORDS = {
 
 
 def _cases(made: dict[str, Any]) -> str:
-    return f"{made['cases']} {'case' if made['cases'] == 1 else 'cases'}"
+    return how_many(made["cases"], "case")
 
 
 def _goals(own: pd.DataFrame) -> str:

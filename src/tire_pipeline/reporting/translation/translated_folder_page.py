@@ -8,6 +8,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.pages.page_in_pieces import PageInPieces
 from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.progress import track
@@ -85,7 +86,7 @@ def _outcome(rows: RowsOnDisk, target: str, parameters: TranslateParameters) -> 
     for own, whose in ((True, "Your own"), (False, "The demonstration fleet's")):
         (count,) = rows.do("select count(*) from rows where own = ?", (own,)).fetchone()
         if count:
-            files = f"{count:,} {'file' if count == 1 else 'files'}{' asked for' if asked else ''}"
+            files = f"{how_many(count, 'file')}{' asked for' if asked else ''}"
             lines.append(f"{whose} {files}: {_counted(rows, own, target)}.")
     if asked:
         lines.append(

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
+from tire_pipeline.pages.numbers_in_words import in_digits
+
 
 def plus_minus(value: float, spread: float, digits: int = 3) -> str:
     """Return a value with its spread to the same decimals, which are those of two digits of the spread.
@@ -18,16 +20,9 @@ def plus_minus(value: float, spread: float, digits: int = 3) -> str:
     ('0.1700 ± 0.0047', '2.9 ± 2.4', '0.17')
     """
     if pd.isna(value) or pd.isna(spread) or spread == 0.0:
-        return number(value, digits)  # of one training, or the same in all
+        return in_digits(value, digits)  # of one training, or the same in all
     decimals = max(0, 1 - math.floor(math.log10(abs(spread))))
     return f"{value:,.{decimals}f} ± {spread:,.{decimals}f}"
-
-
-def number(value: float, digits: int = 3) -> str:
-    """A number with significant digits, without powers of ten."""
-    if pd.isna(value):
-        return "–"
-    return f"{value:,.0f}" if abs(value) >= 10**digits else f"{value:.{digits}g}"
 
 
 def points(ours: float, theirs: float) -> str:
