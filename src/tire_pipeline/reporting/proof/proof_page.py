@@ -52,7 +52,10 @@ def _simulated(
     parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
     parts += groups(details[OWN], "", "the noise")
     if len(misses):
-        said = "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise."
+        said = (
+            "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise. "
+            "Alternatives: what the recording cannot tell from the names before."
+        )
         parts.append(misses_table(misses, said, "Every miss"))
     return parts
 
@@ -90,6 +93,7 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         said = (
             "Cases with a wrong answer, or with a larger error on held-out sweeps. After each true effect: "
             "its strength as a multiple of the misfit, and whether it was hidden from the model's fit. "
+            "Between slashes: names of which the recording cannot tell one. "
             "Held-out ratio: RMS error on held-out sweeps with the findings over that without them."
         )
         parts.append(misses_table(misses, said, "Real recordings: every miss"))
@@ -127,6 +131,8 @@ def _table(own: pd.DataFrame, heading: str) -> Table:
     )
     names = {"low": "95% from", "high": "to", "n": "cases", "target": "goal"}
     table["target"] = [_sign(goal) if isinstance(goal, str) else "" for goal in own["target"]]
+    if "low" in table:
+        table.loc[(table["n"] == 1) & (table["low"] == table["high"]), ["low", "high"]] = float("nan")
     return Table(
         table.rename(columns=names),
         "Shares, unless the score says otherwise. Too few cases: not even a perfect score would show that "
@@ -174,7 +180,8 @@ def _is_share(goal: object) -> bool:
 
 def _sign(goal: str) -> str:
     """The goal with signs as in print."""
-    return goal.replace(">= ", "≥\N{NO-BREAK SPACE}").replace("<= ", "≤\N{NO-BREAK SPACE}")
+    side, bound = goal.split()
+    return f"{'≥' if side == '>=' else '≤'}\N{NO-BREAK SPACE}{float(bound):g}"
 
 
 def _beside(scores: pd.DataFrame, heading: str) -> Table:
