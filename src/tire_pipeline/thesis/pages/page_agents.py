@@ -276,7 +276,7 @@ def _every_cell(results: Results) -> list[Part]:
                 wide[column] = wide[column].map(in_words)
             tables[quantity] = wide.rename(columns={"n_bins": "bins"})
         own = floor[floor["set"] == name].set_index("metric")["ratio"]
-        reach = listed(f"{in_words(m)} {in_digits(own[m])}" for m in METRICS[:3] if m in own)
+        reach = listed(f"{in_words(m)} {in_digits(own[m], 2)}" for m in METRICS[:3] if m in own)
         files = int(results["agents"].loc[results["agents"]["set"] == name, "files"].max())
         caption = (
             f"{files} translations, decoded to .tir: error over that of doing nothing (1), mean ± standard "
