@@ -160,7 +160,9 @@ def _truth(row: Mapping[str, Any], strengths: Sequence[str]) -> str:
         for effect, size in zip(effects, sizes, strict=True)
     ]
     both = zip(effects, notes, strict=True)
-    return _BETWEEN.join(f"{_effect(effect)} ({note})" if note else _effect(effect) for effect, note in both)
+    return _BETWEEN_EFFECTS.join(
+        f"{_effect(effect)} ({note})" if note else _effect(effect) for effect, note in both
+    )
 
 
 def _source(row: Mapping[str, Any]) -> str:
@@ -189,8 +191,8 @@ def _plain(table: pd.DataFrame) -> pd.DataFrame:
     return shown.rename(columns=_COLUMN_TITLES)
 
 
-_NOTHING = ("nan", "None")
-_BETWEEN = "; "
+_NO_TEXT = ("nan", "None")
+_BETWEEN_EFFECTS = "; "
 """Between effects: a title may hold a comma, or an *or*."""
 
 
@@ -213,8 +215,8 @@ def _effects(value: Any) -> Any:
     if not isinstance(value, str):
         return value
     if value.startswith("["):
-        return _BETWEEN.join(_item(item) for item in _items(value))
-    return "" if value in _NOTHING else _effect(value)
+        return _BETWEEN_EFFECTS.join(_item(item) for item in _items(value))
+    return "" if value in _NO_TEXT else _effect(value)
 
 
 def _listed(value: Any) -> Any:
@@ -229,7 +231,7 @@ def _listed(value: Any) -> Any:
         return value
     if value.startswith("["):
         return ", ".join(str(item) for item in _items(value)).replace("_", " ")
-    return "" if value in _NOTHING else value.replace("_", " ")
+    return "" if value in _NO_TEXT else value.replace("_", " ")
 
 
 def _item(item: Any) -> str:
