@@ -28,6 +28,10 @@ def test_large_numbers_have_no_power_of_ten_and_no_digit_of_small_ones_is_invent
         assert len(text.replace(",", "").replace(".", "").lstrip("0")) <= max(most, len(f"{value:.0f}"))
 
 
+def test_zero_has_no_sign():
+    assert in_digits(-0.0) == "0"
+
+
 def test_what_is_no_number():
     assert [in_digits(value) for value in (float("nan"), float("inf"), -float("inf"))] == ["–", "∞", "-∞"]
 

@@ -29,7 +29,8 @@ def in_digits(value: float, most: int = 3) -> str:
         return "–"
     if math.isinf(value):
         return "∞" if value > 0 else "-∞"
-    return f"{value:,.0f}" if abs(value) >= 10**most - 0.5 else f"{value:,.{most}g}"
+    text = f"{value:,.0f}" if abs(value) >= 10**most - 0.5 else f"{value:,.{most}g}"
+    return "0" if text == "-0" else text
 
 
 def how_many(count: int, one: str, several: str = "") -> str:
