@@ -39,6 +39,10 @@ class Progress:
             self._doing = f"downloading {_package(found[2])}{found[3].rstrip()}"
         elif found := re.match(r"\s*Collecting ([\w.-]+)", line):
             self._doing = f"looking for {found[1]}"
+        elif re.match(r"\s*(Installing build dependencies|Building|Preparing|Getting requirements)", line):
+            self._doing = "preparing this project"
+        elif line.startswith(("Requirement already satisfied", "Obtaining ")):
+            self._doing = "looking at what is there"
         elif line.startswith("Installing collected packages: "):
             self._names = line.partition(": ")[2].split(", ")
             self._begin = time.time()

@@ -26,7 +26,9 @@ SPEC.loader.exec_module(TOOL)
             "downloading torch 2.13.0 (190.4 MB)",
         ),
         ("Downloading https://pypi.org/a/kedro-1.7.0.tar.gz (3 kB)", "downloading kedro 1.7.0 (3 kB)"),
-        ("Requirement already satisfied: numpy", "starting pip"),
+        ("Requirement already satisfied: numpy", "looking at what is there"),
+        ("  Installing build dependencies: started", "preparing this project"),
+        ("Looking in indexes: https://pypi.org/simple", "starting pip"),
     ],
 )
 def test_what_pip_does_is_said(tmp_path, line, said):
