@@ -71,7 +71,9 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         lines.append(
             "The real recordings are not available: this is the committed table, not a result of this run."
         )
-    by_source = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
+    by_source = ", ".join(
+        f"{n} of {_SOURCE_WORDS.get(source, source)}" for source, n in made["by_source"].items()
+    )
     lines += [
         f"{_cases(made)} made from real recordings ({by_source}): physics hidden from the model by "
         f"what it was fitted to, known effects added by their mechanism, or nothing. "
@@ -102,8 +104,8 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
 
 _SOURCE_WORDS = {
     "all": "all sources",
-    "calspan": "flat belt (calspan)",
-    "dart": "driven car (dart)",
+    "calspan": "a flat belt (calspan)",
+    "dart": "a driven car (dart)",
     "tydex": "steady points (tydex)",
 }
 
