@@ -15,6 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 SECONDS = 10.0  # between two lines
+_INTERRUPTED = 130
 PIP = (sys.executable, "-m", "pip", "install", "--disable-pip-version-check", "--progress-bar", "off")
 
 
@@ -35,12 +36,16 @@ class Progress:
 
     def hear(self, line: str) -> None:
         """Take in one line that pip printed."""
-        if found := re.match(r"\s*Downloading (\S+/)?([^\s/]+)(.*)", line):
-            self._doing = f"downloading {_package(found[2])}{found[3].rstrip()}"
+        if found := re.match(r"\s*Downloading (\S+/)?([^\s/]+)(.*)", line.rstrip()):
+            package = _package(found[2])
+            only_facts = found[2].endswith(".metadata")
+            self._doing = (
+                f"choosing versions, {package}" if only_facts else f"downloading {package}{found[3]}"
+            )
         elif found := re.match(r"\s*Collecting ([\w.-]+)", line):
-            self._doing = f"looking for {found[1]}"
+            self._doing = f"choosing versions, {found[1]}"
         elif re.match(r"\s*(Installing build dependencies|Building|Preparing|Getting requirements)", line):
-            self._doing = "preparing this project"
+            self._doing = "building packages"
         elif line.startswith(("Requirement already satisfied", "Obtaining ")):
             self._doing = "looking at what is there"
         elif line.startswith("Installing collected packages: "):
@@ -77,6 +82,9 @@ def install(arguments: Iterable[str], *, seconds: float = SECONDS) -> int:
             return pip.wait(timeout=seconds)
         except subprocess.TimeoutExpired:
             print(f"  {progress.say()} ({time.monotonic() - begin:.0f} s so far)", flush=True)
+        except KeyboardInterrupt:  # pip has it, too
+            pip.wait()
+            return _INTERRUPTED
 
 
 def _listen(pip: subprocess.Popen[str], progress: Progress) -> None:

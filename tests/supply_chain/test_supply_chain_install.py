@@ -20,14 +20,18 @@ SPEC.loader.exec_module(TOOL)
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("Collecting numpy<3,>=2 (from tire-pipeline==0.2.0)", "looking for numpy"),
+        ("Collecting numpy<3,>=2 (from tire-pipeline==0.2.0)", "choosing versions, numpy"),
         (
             "  Downloading torch-2.13.0-cp311-cp311-linux_x86_64.whl (190.4 MB)",
             "downloading torch 2.13.0 (190.4 MB)",
         ),
         ("Downloading https://pypi.org/a/kedro-1.7.0.tar.gz (3 kB)", "downloading kedro 1.7.0 (3 kB)"),
+        (
+            "  Downloading zict-3.0.0-py2.py3-none-any.whl.metadata (899 bytes)",
+            "choosing versions, zict 3.0.0",
+        ),
         ("Requirement already satisfied: numpy", "looking at what is there"),
-        ("  Installing build dependencies: started", "preparing this project"),
+        ("  Installing build dependencies: started", "building packages"),
         ("Looking in indexes: https://pypi.org/simple", "starting pip"),
     ],
 )
@@ -77,7 +81,7 @@ def test_it_speaks_while_pip_is_silent(monkeypatch, capsys):
     silent = "import time; print('Collecting torch', flush=True); time.sleep(1.5)"
     monkeypatch.setattr(TOOL, "PIP", (sys.executable, "-c", silent))
     assert TOOL.install([], seconds=0.2) == 0
-    assert "  looking for torch (" in capsys.readouterr().out
+    assert "  choosing versions, torch (" in capsys.readouterr().out
 
 
 def test_an_error_of_pip_is_printed_and_ends_it(tmp_path):
