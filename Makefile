@@ -59,7 +59,7 @@ coverage: install
 # The documentation as a site that opens from a file, without a network: site/index.html
 docs: install
 	@$(BIN)/python -c "import mkdocs, material" 2>/dev/null || \
-		$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]" -c requirements.lock
+		$(BIN)/python tools/install.py -e ".[docs]" -c requirements.lock
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 	@echo "Open site/index.html"
 
@@ -103,7 +103,7 @@ cluster: install
 # Retraining when .tir files arrive and every night; http://127.0.0.1:3000
 # With DAGSTER_POSTGRES_URL in the environment Dagster keeps its runs in Postgres: docs/how-to/cluster.md
 schedule: install
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c requirements.lock \
+	@$(BIN)/python tools/install.py -c requirements.lock \
 		-e ".[schedule$(if $(DAGSTER_POSTGRES_URL),$(COMMA)postgres)]"
 	@mkdir -p $(DATA)/.dagster
 	@cat conf/dagster.yaml $(if $(DAGSTER_POSTGRES_URL),conf/dagster_postgres.yaml) > $(DATA)/.dagster/dagster.yaml
@@ -114,7 +114,7 @@ install: $(VENV)/.installed
 
 $(VENV)/.installed: pyproject.toml requirements.lock
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@echo "Installing (a few minutes the first time)"
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check torch==2.13.0 -c requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[$(EXTRAS)]" -c requirements.lock
+	@echo "Installing into $(VENV): a few minutes the first time, longer beside other work"
+	@$(BIN)/python tools/install.py torch==2.13.0 -c requirements.lock
+	@$(BIN)/python tools/install.py -e ".[$(EXTRAS)]" -c requirements.lock
 	@touch $@

@@ -158,6 +158,11 @@ def test_other_places_of_a_model(folder, translator):
     assert "not a translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr
 
 
+def test_the_model_beside_a_misspelt_name_is_named(folder):
+    said = run("translate", "A/tire.tir", "--model", "06_models/translator.joblib", code=2).stderr
+    assert "did you mean 06_models/translator.npz?" in " ".join(said.split())
+
+
 def test_its_page_is_read_in_a_browser(folder):
     needs_browser()
     run("translate", "A/tire.tir", "--model", "06_models/translator.npz")

@@ -1,11 +1,13 @@
 """The half of the proof from real recordings: scorer, nodes, and what is shown without the recordings."""
 
 import json
+import re
 
 import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import EffectTruth
+from tire_pipeline.concealed.effect_names import UNKNOWN_EFFECTS
 from tire_pipeline.concealed.proof import recorded as real_nodes
 from tire_pipeline.concealed.proof.simulated import ProveConcealedParameters
 from tire_pipeline.concealed.real import RealAnswer
@@ -13,7 +15,9 @@ from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.concealed.real.published import published_text
 from tire_pipeline.concealed.real.score_sets import score_real
 from tire_pipeline.concealed.scoring.findings import name_sets
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.reporting.proof.proof_page import proof_page
+from tire_pipeline.reporting.proof.proof_tables import misses_table
 
 
 def answer(case_id: str, kind: str, *names: str, over_misfit: float = 3.0, source="calspan", **more):
@@ -149,6 +153,30 @@ def test_who_knows_the_answers_scores_one_and_who_says_nothing_zero():
         assert found == (1.0 if method == "oracle" else 0.0)
         assert value(result, "false physics, nothing missing") == 0.0
         assert value(result, "held-out error above the model's own") == 0.0
+
+
+def test_a_miss_names_effects_as_the_page_of_a_recording_does():
+    """By the titles of the catalogue, not by names of the code."""
+    row = {"case": "case_1", "kind": "single", "true": "['friction_scale']", "over_noise": "[1.2]"}
+    row |= {"verdict": "ambiguous", "named": "['plysteer_conicity']", "alternatives": "['force_offset']"}
+    simulated = pd.DataFrame([{**row, "missing_channels": "['tread_temperature']"}])
+    table = misses_table(simulated, "", "").frame
+    assert table.to_dict("records") == [
+        {
+            "case": "1",
+            "kind": "one effect, without tread temperature",
+            "true effects": "another friction level (1.20)",
+            "verdict": "ambiguous",
+            "named": "conicity or ply steer (alternatives: offset of a force channel)",
+        }
+    ]
+    every = [*catalogue(), *UNKNOWN_EFFECTS]
+    shown = misses_table(
+        pd.DataFrame([{"case": "c", "true": str(every), "sets": str([[every, 0.9]])}]), "", ""
+    )
+    text = " ".join(shown.frame.iloc[0])
+    assert "_" not in text
+    assert not re.search("friction scale|plysteer|low pass|stick slip|load rate|speed dependence", text)
 
 
 def _page(scores, misses, details) -> str:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import html
+
 import pandas as pd
 
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
+from tire_pipeline.reporting.translation.translated_rows import SHOWN_VERDICTS
 from tire_pipeline.translation.parameters import TranslateParameters
 
+HEADINGS = ("Every file", "What the verdicts mean", "How it was done")
 REPORT = pd.DataFrame(
     {
         "file": ["A/a.tir", "A/b.tir", "mine/c.tir"],
@@ -67,3 +71,16 @@ def test_files_that_were_asked_for_are_not_called_all():
     assert "shows these files only" in asked
     assert "stay in 07_model_output/translated" in asked
     assert "at most 3 files" in outcome(trials=3)[2]
+
+
+def test_the_head_of_the_page_says_what_came_out_and_the_end_how():
+    """There were eleven paragraphs above the files."""
+    page, said = translate_page([REPORT], {}, pd.DataFrame(), ["A/a.tir"], TranslateParameters(), "D")
+    text = str(page)
+    head, _, rest = text.partition('<div class="main">')[2].partition("</div>")
+    assert [line for line in said if line not in html.unescape(head)] == []
+    assert head.count("<p>") == len(said) <= 4
+    files, meaning, method = (rest.index(f"<h2>{name}") for name in HEADINGS)
+    assert files < meaning < method
+    for verdict in SHOWN_VERDICTS:
+        assert f"<td>{verdict}</td>" in rest[meaning:method]

@@ -112,7 +112,7 @@ def test_learning_curves_are_means_of_windows():
 def test_words():
     assert points(0.95, 0.97) == "2.0 percentage points below the thesis"
     assert points(0.97, 0.97) == "the same as in the thesis"
-    assert plus_minus(1.2345, 0.0567) == "1.234 ± 0.057"
+    assert plus_minus(1.2345, 0.0567) == "1.23 ± 0.06"
     assert plus_minus(1234.5, 56.7) == "1,234 ± 57"
     assert plus_minus(0.75, 0.0) == plus_minus(0.75, float("nan")) == "0.75"
     assert plus_minus(float("nan"), 1.0) == "–"

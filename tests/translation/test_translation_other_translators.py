@@ -49,7 +49,7 @@ def test_greedy_forest_raises_the_probability(training, hidden):
 
 @pytest.mark.parametrize("name", ["no_change", "mixed_model", "greedy_forest"])
 def test_impossible_targets_are_named(name, training):
-    with pytest.raises(DomainError, match="target category 'Z'"):
+    with pytest.raises(DomainError, match=r"target category 'Z'.*one of .*D"):
         make_translator(name).fit(training, target="Z", seed=0)
 
 

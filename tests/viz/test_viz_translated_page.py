@@ -38,7 +38,7 @@ def _report() -> pd.DataFrame:
     return table.assign(
         supplier_known="by its folder",
         reason='because of "<b>this</b>"',
-        changes="",
+        changes="D measures 6% more grip",
         bias_band="",
         protocol="",
     )
@@ -248,6 +248,8 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
         "stiffness (N/deg)",
         "normal load 6 kN",
         "90% band",
+        "As estimated from the training files: D measures 6% more grip. The less certain",
+        "The translation changes it by -10.0% on average.",
     ):
         assert text in detail.text
     assert "2 coefficients moved" in detail.text
@@ -288,6 +290,8 @@ def test_a_file_that_was_not_translated_shows_its_own_curves(driver):
     assert len(detail.find_elements("css selector", "figure path.source")) == 3 * LOADS.size + 1
     assert not detail.find_elements("css selector", "path.band, path.middle")
     assert "90% band" not in detail.text
+    assert "is applied" not in detail.text
+    assert "The translation changes" not in detail.text
     driver.find_element("css selector", "#files tr.open button.file").click()
     reset(driver)
 

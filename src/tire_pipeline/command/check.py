@@ -11,6 +11,7 @@ import numpy as np
 
 from tire_pipeline.command.options import FILE, output_options, read_runs, reading_options
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish
+from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -107,14 +108,14 @@ def _count(number: int, what: str) -> str:
 def _size(recording: pd.DataFrame) -> str:
     kind = recording.attrs.get("format", "")
     if "time" not in recording:
-        return f"{kind}, {len(recording):,} steady points (no time)."
+        return f"{kind}, {how_many(len(recording), 'steady point')} (no time)."
     time = recording["time"].to_numpy(dtype=float)
     time = time[np.isfinite(time)]
     if time.size < 2:
-        return f"{kind}, {len(recording):,} samples."
+        return f"{kind}, {how_many(len(recording), 'sample')}."
     step = float(np.median(np.diff(time)))
-    rate = f" at {1.0 / step:.4g} Hz" if step > 0.0 else ""
-    return f"{kind}, {len(recording):,} samples over {digits(float(np.ptp(time)))} s{rate}."
+    rate = f" at {in_digits(1.0 / step, 4)} Hz" if step > 0.0 else ""
+    return f"{kind}, {how_many(len(recording), 'sample')} over {digits(float(np.ptp(time)))} s{rate}."
 
 
 def _axes(recording: pd.DataFrame) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.files.json_values import json_value
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
 
@@ -140,7 +141,7 @@ def digits(value: Any) -> str:
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if isinstance(value, float):
-        return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
+        return in_digits(value, 4)
     return str(value)
 
 

@@ -61,7 +61,9 @@ def _file(path: Path) -> Path:
     if path.is_file():
         return path
     if not path.is_dir():
-        raise DomainError("there is no such model", where=str(path), todo="fit one with `kedro run`")
+        beside = [path.parent / NAME] if (path.parent / NAME).exists() else sorted(path.parent.glob("*.npz"))
+        todo = f"did you mean {beside[0]}?" if beside else "fit one with `kedro run`"
+        raise DomainError("there is no such model", where=str(path), todo=todo)
     record = path / "record.json"
     if record.is_file():
         return path / "models" / f"{_current(record)}.npz"

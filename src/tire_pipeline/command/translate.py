@@ -21,6 +21,10 @@ _ASSUMED = (
     f"the translator does not say at which nominal load it has learned: {USUAL_LOAD:g} N, the default of "
     "normalize, is assumed; give --nominal-load if it was another"
 )
+_APPLIED = (
+    "These differences are estimated from the training files. The less certain one is, the less of it is "
+    "applied to the file."
+)
 
 
 @click.command(
@@ -116,6 +120,7 @@ def _outcome(
         f"Translation of {file.name}, measured by {said['source']}, to {said['target']}: {said['verdict']}.",
         *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
         *(f"{change}." for change in said["changes"].split("; ") if change),
+        *([_APPLIED] if said["changes"] and translated is not None else []),
         *([f"Bias of {said['source']} against {said['target']} (90% bands): {bands}."] if bands else []),
     ]
     moved = [(r["coefficient"], r["from"], r["to"]) for r in result.coefficients.to_dict("records")]

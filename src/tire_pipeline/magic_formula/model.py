@@ -88,8 +88,9 @@ class TireModel(TireParameters):
 
     def _repr_html_(self) -> str:
         from tire_pipeline.pages.notebook import card
+        from tire_pipeline.pages.numbers_in_words import in_digits
 
-        rows = [(figure.name, f"{figure.value:.4g}", figure.unit) for figure in key_figures(self)]
+        rows = [(figure.name, in_digits(figure.value), figure.unit) for figure in key_figures(self)]
         return card(repr(self), "At the nominal load, without camber:", ("", "value", "unit"), rows)
 
     def forces(

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
 from tire_pipeline.recordings.conventions.plausible import (
@@ -20,7 +21,7 @@ from tire_pipeline.recordings.conventions.plausible import (
     plausible,
     size,
 )
-from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, size_in_words, spikes
+from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -230,9 +231,10 @@ def _gaps(step: np.ndarray) -> list[Issue]:
     bad = np.concatenate([[False], step > LONG_GAP * usual])
     if not bad.any():
         return []
+    longest = in_digits(float(np.nanmax(step)))
     where = (
-        f"time, {bad.sum()} gaps of up to {float(np.nanmax(step)):.3g} s, first at row {int(bad.argmax())}; "
-        f"the usual step is {usual:.3g} s"
+        f"time, {how_many(int(bad.sum()), 'gap')} of up to {longest} s, first at row {int(bad.argmax())}; "
+        f"the usual step is {in_digits(usual)} s"
     )
     todo = "states such as temperature are unknown after a gap"
     return [Issue("gaps_in_time", "warning", where, todo, _runs(bad))]
@@ -242,7 +244,7 @@ def _long_steps(frame: pd.DataFrame, step: np.ndarray) -> list[Issue]:
     usual = float(np.nanmedian(step)) if np.isfinite(step).any() else 0.0
     if usual <= LONG_STEP:
         return []
-    where = f"time, {usual:.3g} s from sample to sample"
+    where = f"time, {in_digits(usual)} s from sample to sample"
     todo = f"lags and delays count in seconds: if time is in ms, state it: {unit_stated(frame, 'time', 'ms')}"
     return [Issue("long_time_steps", "warning", where, todo)]
 
@@ -295,7 +297,7 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
         return []
     unit = _UNIT_OF_CHANNEL[column]
     up_to = "up to " if large > PLAUSIBLE_VALUES[column].high else ""
-    where = f"{column}, {up_to}{size_in_words(large)} {unit}".removesuffix(" -")
+    where = f"{column}, {up_to}{in_digits(large)} {unit}".removesuffix(" -")
     read_as = PLAUSIBLE_VALUES[column].read_as
     if not read_as:
         return [
@@ -337,7 +339,7 @@ def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarr
         or not plausible("normal_load", large)
     ):
         return []
-    where = f"{name}, up to {sizes[name]:.4g} N at a normal_load of up to {large:.3g} N"
+    where = f"{name}, up to {in_digits(sizes[name])} N at a normal_load of up to {in_digits(large)} N"
     units = likely_load_units(frame, large, sizes[name])
     todo = f"no tire makes this force; of the load, {_ask(frame, 'normal_load', units)}"
     return [Issue("implausible_friction", "warning", where, todo)]
@@ -353,7 +355,7 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
             Issue(
                 "constant_force",
                 "error" if len(still) == len(forces) else "warning",
-                ", ".join(f"{n} is {forces[n][0]:.4g} N throughout" for n in still),
+                ", ".join(f"{n} is {in_digits(forces[n][0], 4)} N throughout" for n in still),
                 "no force was measured: check that the sensor was on",
             )
         )

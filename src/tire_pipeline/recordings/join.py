@@ -9,6 +9,7 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 
 LEAST_GAP = 1.0
@@ -206,7 +207,7 @@ def _laid_end_to_end(
             offset = end + gap - float(np.nanmin(time)) if laid else 0.0
             frame = frame.assign(time=time + offset)
             end = float(np.nanmax(frame["time"]))
-            starts.append(f"{name} (from {float(np.nanmin(frame['time'])):.4g} s)")
+            starts.append(f"{name} (from {in_digits(float(np.nanmin(frame['time'])), 4)} s)")
         joined.append({"name": name, "first": row, "last": row + len(frame) - 1, "offset": offset})
         row += len(frame)
         laid.append(frame)

@@ -14,11 +14,11 @@ import scipy
 
 from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS
 from tire_pipeline.outliers import STANDS_OUT
+from tire_pipeline.pages.numbers_in_words import in_digits
 
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
-_WRITTEN_OUT = 1e3
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
@@ -55,11 +55,6 @@ def spikes(x: Array) -> Array:
     return found
 
 
-def size_in_words(value: float) -> str:
-    """Return a value with three digits, thousands written out."""
-    return f"{value:,.0f}" if abs(value) >= _WRITTEN_OUT else f"{value:.3g}"
-
-
 def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """Return the channel, how many of its samples are spikes, the largest of them, and the first row.
 
@@ -72,7 +67,7 @@ def said_of_spikes(name: str, x: Array, found: Array) -> str:
     """
     rows = np.flatnonzero(found)
     most = float(x[rows[np.argmax(np.abs(x[rows]))]])
-    size = size_in_words(most)
+    size = in_digits(most)
     if rows.size == 1:
         return f"{name}: {size} in row {rows[0]} stands out from its neighbours"
     return f"{name}: {rows.size} values from row {rows[0]} on stand out from their neighbours, up to {size}"

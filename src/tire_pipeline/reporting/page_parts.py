@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,6 +16,7 @@ from markupsafe import Markup
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from tire_pipeline.pages.drawing import inline_svg, page_style
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.safe_page import page_environment, policy
 
@@ -271,7 +273,23 @@ def without_empty_columns(table: pd.DataFrame, always: Sequence[str] = ()) -> pd
 def _holds_numbers(column: pd.Series) -> bool:
     if is_numeric_dtype(column):
         return not is_bool_dtype(column)
-    return any(map(is_percentage, column)) and all(is_percentage(each) or each == "–" for each in column)
+    return any(map(_reads_as_number, column)) and all(
+        _reads_as_number(each) or each in ("–", "") for each in column
+    )
+
+
+_WITH_SPREAD = re.compile(r"[+-]?\d[\d,]*\.\d+( ± <?\d[\d,]*\.?\d*)?")
+
+
+def _reads_as_number(value: object) -> bool:
+    """Whether a text is a percentage, or a number with decimals, with or without its spread.
+
+    Examples
+    --------
+    >>> _reads_as_number("0.170 ± 0.005"), _reads_as_number("2.13"), _reads_as_number("4 ± the rest")
+    (True, True, False)
+    """
+    return is_percentage(value) or (isinstance(value, str) and bool(_WITH_SPREAD.fullmatch(value)))
 
 
 _LOSS = 0.05
@@ -305,8 +323,7 @@ def _cell(value: object, digits: int, decimals: int | None = None) -> tuple[str,
             return ("–", True)
         if decimals is not None and math.isfinite(value):
             return (f"{value:,.{decimals}f}", True)
-        whole = abs(value) >= 10**digits
-        return (f"{value:,.0f}" if whole else f"{value:,.{digits}g}", True)
+        return (in_digits(value, digits), True)
     if isinstance(value, int):
         return (f"{value:,}", True)
     return (str(value), False)

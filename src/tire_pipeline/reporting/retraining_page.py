@@ -10,6 +10,7 @@ import pandas as pd
 
 from tire_pipeline.files.rows_on_disk import REPORT_ROWS, joined
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
+from tire_pipeline.reporting.page_parts import without_empty_columns
 from tire_pipeline.retraining import ModelRegistry
 from tire_pipeline.retraining.drift import DRIFT, FEWEST_FILES, NEW, PSI_LIMIT, RISK, TOO_FEW
 from tire_pipeline.retraining.ingest import READ
@@ -75,7 +76,7 @@ def _counted(files: Iterable[pd.DataFrame]) -> tuple[dict[str, int], pd.DataFram
 def _unread(counts: Mapping[str, int], unread: pd.DataFrame) -> Table:
     more = sum(counts.values()) - counts.get(READ, 0) - len(unread)
     return Table(
-        _without_paths(unread),
+        without_empty_columns(_without_paths(unread).fillna(""), always=("file", "category", "status")),
         heading="Files that were not read",
         caption="Pending: it cannot be read, and is tried again when its content changes. Set aside: "
         "it is no regular file. Taken already: the same file was read under another name. Removed: "

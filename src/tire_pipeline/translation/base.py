@@ -310,10 +310,10 @@ def check_target(training: pd.DataFrame, target: str) -> None:
     """
     categories = sorted(training["category"].astype(str).unique())
     if target not in categories:
+        known = f"one of {', '.join(categories)}" if categories else "its table is empty"
         raise DomainError(
             f"no training file is of the target category {target!r}",
-            todo="train on files of it first, or choose one of "
-            f"{', '.join(categories) or 'none: the table is empty'}",
+            todo=f"state target_category as in the run that read the files ({known}), or read files of it",
         )
     if len(categories) < 2:
         raise DomainError(

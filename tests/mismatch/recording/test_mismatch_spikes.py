@@ -108,4 +108,4 @@ def test_a_wheel_that_stands_says_nothing(tire, record):
     plain = explain_mismatch(tire, run)
     assert (report.verdict, report.sets) == (plain.verdict, plain.sets)
     assert report.fit["fy"].rms_before == pytest.approx(plain.fit["fy"].rms_before)
-    assert any("200 samples are left out: the wheel stands" in note for note in report.notes)
+    assert any("200 samples left out: the wheel stands" in note for note in report.notes)

@@ -94,3 +94,10 @@ def test_one_force_that_its_slip_does_not_drive_is_left_out(braked, record):
     assert prepared.question is None
     assert prepared.data.outputs == ("fy",)
     assert any(n.startswith("fx is left out") for n in prepared.notes)
+
+
+@pytest.mark.parametrize(("rows", "said"), [([100], "1 sample in holes"), ([100, 300], "2 samples in holes")])
+def test_a_note_counts_in_the_singular_where_there_is_one(tire, record, rows, said):
+    run = record()
+    run.loc[rows, "fy"] = np.nan
+    assert any(note.startswith(said) for note in prepare(tire, run).notes)

@@ -31,6 +31,7 @@ from tire_pipeline.mismatch.recording.usable import (
     leave_out_still_slip,
     standing,
 )
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.recordings.check import (
     LEAST_POINTS,
     LEAST_SAMPLES,
@@ -303,7 +304,7 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         arrays[name][holes] = np.interp(holes, known, x[known])
     if filled.any():
         notes.append(
-            f"{int(filled.sum())} samples in holes of up to {LONGEST_HOLE} were put on straight lines"
+            f"{how_many(int(filled.sum()), 'sample')} in holes of up to {LONGEST_HOLE}: put on straight lines"
         )
 
 
@@ -322,9 +323,7 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
             (*INPUT_CHANNELS, *TANGENTIAL_FORCES),
             key=lambda c: int((~np.isfinite(arrays[c])).sum()) if c in arrays else -1,
         )
-        notes.append(
-            f"{lost} of {n} samples have no number in some channel (most often {worst}) and are left out"
-        )
+        notes.append(f"{lost} of {n} samples left out: without a number in some channel (most often {worst})")
     if ok.sum() < max(LEAST_POINTS, LEAST_WHOLE * n):
         raise RecordingError(
             f"only {int(ok.sum())} of {n} samples have numbers in all channels",

@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, largest, moves
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.recordings.check import unit_stated
 
 Array = np.ndarray
@@ -189,7 +190,7 @@ def standing(arrays: Mapping[str, Array], notes: list[str]) -> Array:
     still = np.asarray(speed < _STANDS * largest(speed))
     if still.any():
         notes.append(
-            f"{int(still.sum())} samples are left out: the wheel stands (speed below "
+            f"{how_many(int(still.sum()), 'sample')} left out: the wheel stands (speed below "
             f"{_STANDS * largest(speed):.2g} m/s)"
         )
     return still

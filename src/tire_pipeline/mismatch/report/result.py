@@ -96,13 +96,14 @@ class MismatchReport(ReportContents):
 
     def _repr_html_(self) -> str:
         from tire_pipeline.pages.notebook import card
+        from tire_pipeline.pages.numbers_in_words import in_digits
 
         rows = [
             (
                 name,
-                f"{fit.rms_before:.3g}",
-                f"{fit.rms_after:.3g}",
-                f"{fit.noise_floor:.3g}",
+                in_digits(fit.rms_before),
+                in_digits(fit.rms_after),
+                in_digits(fit.noise_floor),
             )
             for name, fit in self.fit.items()
         ]

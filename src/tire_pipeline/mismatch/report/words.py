@@ -10,6 +10,7 @@ import numpy as np
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.effects import Effect, catalogue
+from tire_pipeline.pages.numbers_in_words import in_digits
 
 _FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
 """Smaller values are written as 0, SI: no rig controls them so closely."""
@@ -23,12 +24,7 @@ def shown(axis: str, value: float) -> str:
 def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
     factor = shown_unit(axis, value if size is None else size)[0]
-    return "0" if abs(value) < _FINEST.get(axis, 0.0) else _three_digits(value * factor)
-
-
-def _three_digits(value: float) -> str:
-    """Return at least three digits, without an exponent for thousands."""
-    return f"{value:,.0f}" if abs(value) >= 999.5 else f"{value:.3g}"
+    return "0" if abs(value) < _FINEST.get(axis, 0.0) else in_digits(value * factor)
 
 
 def ends(axis: str, low: float, high: float) -> tuple[str, str]:

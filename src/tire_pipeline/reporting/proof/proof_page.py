@@ -9,6 +9,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.reporting import HOME, Figure, Part, Table, Text, render_page
 from tire_pipeline.reporting.proof.proof_tables import METHODS, groups, misses_table
 
@@ -51,7 +52,10 @@ def _simulated(
     parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
     parts += groups(details[OWN], "", "the noise")
     if len(misses):
-        said = "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise."
+        said = (
+            "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise. "
+            "Alternatives: what the recording cannot tell from the names before."
+        )
         parts.append(misses_table(misses, said, "Every miss"))
     return parts
 
@@ -67,7 +71,9 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         lines.append(
             "The real recordings are not available: this is the committed table, not a result of this run."
         )
-    by_source = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
+    by_source = ", ".join(
+        f"{n} of {_SOURCE_WORDS.get(source, source)}" for source, n in made["by_source"].items()
+    )
     lines += [
         f"{_cases(made)} made from real recordings ({by_source}): physics hidden from the model by "
         f"what it was fitted to, known effects added by their mechanism, or nothing. "
@@ -89,6 +95,7 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         said = (
             "Cases with a wrong answer, or with a larger error on held-out sweeps. After each true effect: "
             "its strength as a multiple of the misfit, and whether it was hidden from the model's fit. "
+            "Between slashes: names of which the recording cannot tell one. "
             "Held-out ratio: RMS error on held-out sweeps with the findings over that without them."
         )
         parts.append(misses_table(misses, said, "Real recordings: every miss"))
@@ -97,14 +104,14 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
 
 _SOURCE_WORDS = {
     "all": "all sources",
-    "calspan": "flat belt (calspan)",
-    "dart": "driven car (dart)",
+    "calspan": "a flat belt (calspan)",
+    "dart": "a driven car (dart)",
     "tydex": "steady points (tydex)",
 }
 
 
 def _cases(made: dict[str, Any]) -> str:
-    return f"{made['cases']} {'case' if made['cases'] == 1 else 'cases'}"
+    return how_many(made["cases"], "case")
 
 
 def _goals(own: pd.DataFrame) -> str:
@@ -126,6 +133,8 @@ def _table(own: pd.DataFrame, heading: str) -> Table:
     )
     names = {"low": "95% from", "high": "to", "n": "cases", "target": "goal"}
     table["target"] = [_sign(goal) if isinstance(goal, str) else "" for goal in own["target"]]
+    if "low" in table:
+        table.loc[(table["n"] == 1) & (table["low"] == table["high"]), ["low", "high"]] = float("nan")
     return Table(
         table.rename(columns=names),
         "Shares, unless the score says otherwise. Too few cases: not even a perfect score would show that "
@@ -173,7 +182,8 @@ def _is_share(goal: object) -> bool:
 
 def _sign(goal: str) -> str:
     """The goal with signs as in print."""
-    return goal.replace(">= ", "≥\N{NO-BREAK SPACE}").replace("<= ", "≤\N{NO-BREAK SPACE}")
+    side, bound = goal.split()
+    return f"{'≥' if side == '>=' else '≤'}\N{NO-BREAK SPACE}{float(bound):g}"
 
 
 def _beside(scores: pd.DataFrame, heading: str) -> Table:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.concealed.effect_names import UNKNOWN_EFFECTS
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.reporting.page_parts import Table, without_empty_columns
 
 METHODS = {
@@ -27,6 +30,17 @@ _KIND_WORDS = {
     "nothing": "nothing missing",
     "unknown": "outside the catalogue",
 }
+_UNKNOWN_WORDS = {
+    "backlash": "backlash of the steering",
+    "stick_slip": "stick-slip",
+    "load_rate": "rate of the load",
+    "slip_rate": "rate of the slip angle",
+    "drum_seam": "seam of the drum",
+    "rig_resonance": "resonance of the rig",
+    "friction_memory": "friction that lags behind the slip",
+    "quantisation": "coarse resolution of a channel",
+}
+_EFFECT_COLUMNS = ("true", "named", "alternatives", "sets", "effect")
 _COLUMN_TITLES = {
     "above": "strength above",
     "up_to": "up to",
@@ -67,15 +81,26 @@ def groups(details: dict[str, Any], before: str, strength: str) -> list[Table]:
     captions = {
         "by_strength": "Share of the cases that were answered correctly. Strength: RMS of the effect's "
         f"force, as a multiple of {strength}.",
-        "by_effect": "How often each effect was named where it was the truth.",
+        "by_effect": "How often each effect of the catalogue was named where it was the truth.",
     }
     out = []
     for key, words in (("by_strength", "By strength of the effect"), ("by_effect", "By effect")):
         table = pd.DataFrame(details.get(key, [])).dropna(axis="columns", how="all")
+        if "effect" in table:
+            table = table[~table["effect"].isin(UNKNOWN_EFFECTS)]
         if len(table):
             heading = before + (words.lower() if before else words)
-            out.append(Table(_plain(table), captions[key], heading=heading, decimals=2))
+            table, counted = _without_one_score(table)
+            out.append(Table(_plain(table), captions[key] + counted, heading=heading, decimals=2))
     return out
+
+
+def _without_one_score(table: pd.DataFrame) -> tuple[pd.DataFrame, str]:
+    """A table without its column of scores if all rows have the same, and a sentence on that score."""
+    if "name" not in table or table["name"].nunique() > 1:
+        return table, ""
+    said = {"right": " Answered correctly: all effects are named, and nothing else."}
+    return table.drop(columns="name"), said.get(table["name"].iloc[0], "")
 
 
 _FOLLOW = ("missed", "invented", "not_first", "false")
@@ -83,7 +108,7 @@ _FOLLOW = ("missed", "invented", "not_first", "false")
 
 
 def misses_table(misses: pd.DataFrame, caption: str, heading: str) -> Table:
-    """Every case with a wrong answer.
+    """Every case with a wrong answer, with effects as the page of a recording names them.
 
     Columns in which nothing stands are left out, and those that follow from the truth and the names. What
     belongs together stands in one column, so that a table fits the page.
@@ -100,7 +125,23 @@ def misses_table(misses: pd.DataFrame, caption: str, heading: str) -> Table:
             lambda ratio: f"{ratio:.2f}", na_action="ignore"
         )
     table = _plain(table.drop(columns=[*strengths, "rate", "hidden"], errors="ignore").astype(str))
+    table = _joined(_joined(table, "alternatives", " (alternatives: {})"), "missing channels", ", without {}")
     return Table(without_empty_columns(table), caption, heading=heading, most_rows=400)
+
+
+_STAND_BEHIND = {"alternatives": "named", "missing channels": "kind"}
+
+
+def _joined(table: pd.DataFrame, name: str, said: str) -> pd.DataFrame:
+    """A table in which a column stands behind another one, so that it is narrow enough for a page."""
+    before = _STAND_BEHIND[name]
+    if name not in table or before not in table:
+        return table
+    both = [
+        text + said.format(further) if text and further else text
+        for text, further in zip(table[before], table[name], strict=True)
+    ]
+    return table.assign(**{before: both}).drop(columns=name)
 
 
 def _truth(row: Mapping[str, Any], strengths: Sequence[str]) -> str:
@@ -110,16 +151,18 @@ def _truth(row: Mapping[str, Any], strengths: Sequence[str]) -> str:
     --------
     >>> row = {"true": "['wear', 'camber']", "over_misfit": "[0.7, 2.9]", "hidden": "['camber']"}
     >>> _truth(row, ["over_misfit"])
-    'wear (0.7), camber (2.9, hidden)'
+    'wear (0.70); camber (2.90, hidden)'
     """
     effects, hidden = _items(row["true"]), _items(row.get("hidden", "[]"))
     sizes = [size for name in strengths for size in _items(row[name])] or [None] * len(effects)
     notes = [
-        ", ".join([*([] if size is None else [str(size)]), *(["hidden"] if effect in hidden else [])])
+        ", ".join([*([] if size is None else [f"{size:.2f}"]), *(["hidden"] if effect in hidden else [])])
         for effect, size in zip(effects, sizes, strict=True)
     ]
     both = zip(effects, notes, strict=True)
-    return ", ".join(f"{effect} ({note})" if note else str(effect) for effect, note in both)
+    return _BETWEEN_EFFECTS.join(
+        f"{_effect(effect)} ({note})" if note else _effect(effect) for effect, note in both
+    )
 
 
 def _source(row: Mapping[str, Any]) -> str:
@@ -129,7 +172,10 @@ def _source(row: Mapping[str, Any]) -> str:
 def _items(value: Any) -> list[Any]:
     """A list, also one that a CSV holds as text."""
     if isinstance(value, str):
-        return list(ast.literal_eval(value)) if value.startswith("[") else []
+        try:
+            return list(ast.literal_eval(value)) if value.startswith("[") else []
+        except (SyntaxError, ValueError):
+            return [value]
     return list(value) if isinstance(value, (list, tuple)) else []
 
 
@@ -141,30 +187,54 @@ def _plain(table: pd.DataFrame) -> pd.DataFrame:
         shown["name"] = shown["name"].map(lambda name: _SCORES.get(name, name))
     for name in shown.columns:
         if not pd.api.types.is_numeric_dtype(shown[name]) and name not in ("case", "kind"):
-            shown[name] = shown[name].map(_listed)
+            shown[name] = shown[name].map(_effects if name in _EFFECT_COLUMNS else _listed)
     return shown.rename(columns=_COLUMN_TITLES)
 
 
-def _listed(value: Any) -> Any:
-    """A list as its items, a set with its confidence as ``a or b (57%)``; names without underscores.
+_NO_TEXT = ("nan", "None")
+_BETWEEN_EFFECTS = "; "
+"""Between effects: a title may hold a comma, or an *or*."""
+
+
+def _effect(name: object) -> str:
+    """An effect as the page of a recording names it, without the article; others in plain words."""
+    text = str(name)
+    known = catalogue().get(text)
+    words = known.title if known else _UNKNOWN_WORDS.get(text, text.replace("_", " "))
+    return re.sub("^an? ", "", words)
+
+
+def _effects(value: Any) -> Any:
+    """Effects by their titles; names of which one is the cause stand between slashes, with their confidence.
 
     Examples
     --------
-    >>> _listed("['wear', 'force_offset']"), _listed("[]"), _listed("[[['wear', 'force_gain'], 0.568]]")
-    ('wear, force offset', '', 'wear or force gain (57%)')
+    >>> _effects("['wear', 'force_offset']"), _effects("low_pass"), _effects("[[['wear', 'camber'], 0.568]]")
+    ('wear; offset of a force channel', 'low-pass filter on the force channels', 'wear / camber (57%)')
     """
     if not isinstance(value, str):
         return value
-    try:
-        found = ast.literal_eval(value) if value.startswith("[") else value
-    except (SyntaxError, ValueError):
-        found = value
-    if isinstance(found, str):
-        return "" if found in ("nan", "None") else found.replace("_", " ")
-    return ", ".join(_item(item) for item in found)
+    if value.startswith("["):
+        return _BETWEEN_EFFECTS.join(_item(item) for item in _items(value))
+    return "" if value in _NO_TEXT else _effect(value)
+
+
+def _listed(value: Any) -> Any:
+    """A list as its items, names without underscores.
+
+    Examples
+    --------
+    >>> _listed("['tread_temperature', 'speed']"), _listed("[]"), _listed("agrees")
+    ('tread temperature, speed', '', 'agrees')
+    """
+    if not isinstance(value, str):
+        return value
+    if value.startswith("["):
+        return ", ".join(str(item) for item in _items(value)).replace("_", " ")
+    return "" if value in _NO_TEXT else value.replace("_", " ")
 
 
 def _item(item: Any) -> str:
     if isinstance(item, list) and len(item) == 2 and isinstance(item[0], list):
-        return f"{' or '.join(str(name) for name in item[0])} ({item[1]:.0%})".replace("_", " ")
-    return str(item).replace("_", " ")
+        return f"{' / '.join(map(_effect, item[0]))} ({item[1]:.0%})"
+    return _effect(item)

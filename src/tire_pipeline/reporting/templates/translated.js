@@ -150,7 +150,8 @@
     const said = [cells[at.verdict] + (cells[at.reason] ? ": " + cells[at.reason] : "")];
     said.push("Supplier: " + cells[at.supplier] + (cells[at.known] && cells[at.known] !== cells[at.supplier] ? " (" + cells[at.known] + ")" : ""));
     if (cells[at.protocol]) said.push("Protocol: " + cells[at.protocol]);
-    if (cells[at.changes]) said.push(cells[at.changes]);
+    const applied = cells[at.verdict] === "translated" ? ". The less certain a difference is, the less of it is applied to the file." : ".";
+    if (cells[at.changes]) said.push("As estimated from the training files: " + cells[at.changes] + applied);
     if (cells[at.bias]) said.push("The supplier's bias against the target (90% bands): " + cells[at.bias]);
     for (const each of said) {
       const paragraph = element("p");
@@ -290,8 +291,15 @@
     xs.forEach((load, l) => svg.append(drawn("circle", {cx: x(load).toFixed(1), cy: y((moved || own)[l]).toFixed(1), r: 2.5, class: "dot l0"})));
     const figure = element("figure");
     figure.dataset.panel = "stiffness";
-    figure.append(svg, element("figcaption", "How the slope of the lateral force at zero grows with the load: computed at the loads with a dot."));
+    const applied = own && moved ? " The translation changes it by " + signed(mean(moved.map((value, l) => value / own[l] - 1))) + " on average." : "";
+    figure.append(svg, element("figcaption", "How the slope of the lateral force at zero grows with the load: computed at the loads with a dot." + applied));
     return figure;
+  }
+  function mean(values) {
+    return values.reduce((sum, value) => sum + value, 0) / values.length;
+  }
+  function signed(share) {
+    return (share < 0 ? "-" : "+") + Math.abs(100 * share).toFixed(1) + "%";
   }
   function legend(bands) {
     const list = element("ul", undefined, "legend");

@@ -26,6 +26,7 @@ def translated_page(
     drawn: DrawnFiles,
     *,
     tables: Sequence[Table] = (),
+    notes: Sequence[str] = (),
 ) -> PageInPieces:
     """Draw the page.
 
@@ -40,6 +41,8 @@ def translated_page(
         Curves and coefficients.
     tables : sequence of Table
         Further tables, below the files.
+    notes : sequence of str
+        How it was done, in sentences; at the end of the page.
 
     Returns
     -------
@@ -55,6 +58,7 @@ def translated_page(
         "lines": lines,
         "suppliers": by_supplier(rows),
         "tables": tables,
+        "notes": notes,
         "policy": policy(style=style, scripts=[script]),
         "style": Markup(style),
         "script": Markup(script),

@@ -8,6 +8,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.pages.page_in_pieces import PageInPieces
 from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.progress import track
@@ -16,7 +17,7 @@ from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.reporting.translation.translated_rows import listed, median_expected
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
+from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in
 
 _PROTOCOLS = (
@@ -64,8 +65,11 @@ def translate_page(
     if len(protocols):
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
         tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
-    lines = [*outcome, *_explained(rows, parameters)]
-    return translated_page(f"Translated to {target}", lines, rows, drawn, tables=tables), outcome
+    tables.insert(0, Table(_WHAT_VERDICTS_MEAN, "", heading="What the verdicts mean"))
+    notes = _notes(rows, parameters)
+    return translated_page(
+        f"Translated to {target}", outcome, rows, drawn, tables=tables, notes=notes
+    ), outcome
 
 
 def _drawn(parts: Mapping[str, Callable[[], bytes]]) -> DrawnFiles:
@@ -85,7 +89,7 @@ def _outcome(rows: RowsOnDisk, target: str, parameters: TranslateParameters) -> 
     for own, whose in ((True, "Your own"), (False, "The demonstration fleet's")):
         (count,) = rows.do("select count(*) from rows where own = ?", (own,)).fetchone()
         if count:
-            files = f"{count:,} {'file' if count == 1 else 'files'}{' asked for' if asked else ''}"
+            files = f"{how_many(count, 'file')}{' asked for' if asked else ''}"
             lines.append(f"{whose} {files}: {_counted(rows, own, target)}.")
     if asked:
         lines.append(
@@ -136,23 +140,40 @@ def _why_refused(rows: RowsOnDisk) -> str:
     return "; ".join([*shown, *([f"other reasons ({others:,})"] if others else [])])
 
 
-def _explained(rows: RowsOnDisk, parameters: TranslateParameters) -> list[str]:
+_WHAT_VERDICTS_MEAN = pd.DataFrame(
+    [
+        (TRANSLATED, "The error is expected to shrink."),
+        (
+            UNBIASED,
+            "The target measured it, or the 90% bands of the supplier's bias contain zero and nothing beyond "
+            "5%.",
+        ),
+        (
+            LEFT_ALONE,
+            "Too little would be gained, or the bias cannot be distinguished from chance, as with few "
+            "training files.",
+        ),
+        (
+            REFUSED,
+            "The file cannot be read or is of version 6.x, no physical tire was found, or its tire is too "
+            "far from those learned from.",
+        ),
+        (UNKNOWN, "Too few files of this folder were learned from to know its bias."),
+    ],
+    columns=["verdict", "meaning"],
+)
+
+
+def _notes(rows: RowsOnDisk, parameters: TranslateParameters) -> list[str]:
+    """How it was done, for below the files."""
     reach = "distance 1, the edge of the training data"
     if parameters.farthest != EDGE:
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
     lines = [
-        "Translated: the error is expected to shrink.",
-        "Already unbiased: the target measured it, or the 90% bands of the supplier's bias contain zero and "
-        "nothing beyond 5%.",
-        "Left alone: too little would be gained, or the bias cannot be distinguished from chance, "
-        "as with few training files.",
-        "Refused: the file cannot be read or is of version 6.x, no physical tire was found, or its tire is "
-        "too far from those learned from.",
-        "Unknown supplier: too few files of this folder were learned from to know its bias.",
-        f"Only translated files are written, none beyond {reach}. Errors are RMS of side and longitudinal "
-        "force; the aligning torque is translated, but is not among them.",
         f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
         + ("used." if parameters.pairs else "not used."),
+        f"Only translated files are written, none beyond {reach}. Errors are RMS of side and longitudinal "
+        "force; the aligning torque is translated, but is not among them.",
     ]
     if parameters.classify:
         lines.append(

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pandas as pd
 
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.reporting import Figure, Part, Table, Text
 from tire_pipeline.thesis.pages.agent_figures import FORCE_FIGURES, shown
 from tire_pipeline.thesis.pages.figures import drawing
-from tire_pipeline.thesis.pages.words import agreement, listed, number, plus_minus, rank_agreement
+from tire_pipeline.thesis.pages.words import agreement, listed, plus_minus, rank_agreement
 from tire_pipeline.thesis.published import AGENT_TABLES, published_figure, published_table
 from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds
 from tire_pipeline.translation.thesis.tables import METRICS, better_than_nothing
@@ -135,8 +136,8 @@ def _table_words(ran: pd.DataFrame) -> list[str]:
 
     lines = [
         f"By the average, {order}.",
-        f"Best: {name(theirs)} ({number(theirs['thesis'])}) in the thesis, {name(best)} "
-        f"({number(best['curves'])}) here.",
+        f"Best: {name(theirs)} ({in_digits(theirs['thesis'])}) in the thesis, {name(best)} "
+        f"({in_digits(best['curves'])}) here.",
     ]
     single = ran[ran["metric"] != "mean"]
     if ratio:
@@ -171,8 +172,8 @@ def _stable_form(results: Results) -> list[Part]:
     line = (
         "Not in the thesis: the same features scaled so that they can be inverted, decoded to the root "
         f"nearest to the source. The average ratio is smaller in {better} of {len(table)} cells; median "
-        f"{number(table['power_series_stable'].median())} instead of "
-        f"{number(table['power_series'].median())}."
+        f"{in_digits(table['power_series_stable'].median())} instead of "
+        f"{in_digits(table['power_series'].median())}."
     )
     table = table.rename(columns={"power_series": "as published", "power_series_stable": "stable form"})
     return [Text([line], heading="Power series that can be inverted"), Table(table)]
@@ -275,7 +276,7 @@ def _every_cell(results: Results) -> list[Part]:
                 wide[column] = wide[column].map(in_words)
             tables[quantity] = wide.rename(columns={"n_bins": "bins"})
         own = floor[floor["set"] == name].set_index("metric")["ratio"]
-        reach = listed(f"{in_words(m)} {number(own[m])}" for m in METRICS[:3] if m in own)
+        reach = listed(f"{in_words(m)} {in_digits(own[m], 2)}" for m in METRICS[:3] if m in own)
         files = int(results["agents"].loc[results["agents"]["set"] == name, "files"].max())
         caption = (
             f"{files} translations, decoded to .tir: error over that of doing nothing (1), mean ± standard "

@@ -7,11 +7,12 @@ from collections.abc import Callable
 import pandas as pd
 
 from tire_pipeline.classifiers.tuning import ANN_GRID
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Figure, Part, Table, Text
 from tire_pipeline.thesis.pages.class_scores import per_class_table
 from tire_pipeline.thesis.pages.figures import BIN_FIGURES, SPLITS, drawing
-from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
+from tire_pipeline.thesis.pages.words import least_within, listed, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
 from tire_pipeline.thesis.result_tables import Results, in_words, over_trainings
 
@@ -384,8 +385,8 @@ def _condition(results: Results) -> list[Part]:
     line = (
         "Thesis, 6.3.4: small changes of the features alter the curve radically. Measured on our tires: a "
         "change of the features by their own spread changes B, C and E by "
-        f"{number(gain['published'])} times theirs in the published form and by {number(gain['stable'])} "
-        "times in the stable one (median)."
+        f"{in_digits(gain['published'])} times theirs in the published form and by "
+        f"{in_digits(gain['stable'])} times in the stable one (median)."
     )
     return [
         Text([line], heading="Why the power series is unstable"),

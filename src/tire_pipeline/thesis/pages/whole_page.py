@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pandas as pd
 
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.thesis.pages.page_agents import agent_parts
 from tire_pipeline.thesis.pages.page_classifiers import classifier_parts
 from tire_pipeline.thesis.pages.questions import answers
-from tire_pipeline.thesis.pages.words import listed, number
+from tire_pipeline.thesis.pages.words import listed
 from tire_pipeline.thesis.result_tables import BETTER, Results, over_seeds, over_trainings
 
 THESIS_FILES = 2061
@@ -52,7 +53,7 @@ def _main(results: Results) -> list[str]:
         lines.append(
             f"Set {name}: {below} of {len(part)} configurations of the thesis' agents bring tires nearer to "
             f"{results.facts['target']}'s measurement than doing nothing, averaged over the three metrics. "
-            f"The median error ratio is {number(float(part['value'].median()))} (1: nothing gained). In "
+            f"The median error ratio is {in_digits(float(part['value'].median()))} (1: nothing gained). In "
             "the thesis it is none of 48."
         )
     tires = results["agent_tires"]
@@ -103,8 +104,9 @@ def _sets(results: Results) -> str:
 
 def _footer(results: Results) -> str:
     seconds = results["seconds"]["seconds"]
+    minutes, each = in_digits(float(seconds.sum() / 60)), in_digits(float(seconds.mean()))
     return (
-        f"{len(seconds)} agents were trained in {number(float(seconds.sum() / 60))} minutes, added up over "
-        f"all processes ({number(float(seconds.mean()))} s each). The folder thesis beside this page holds "
+        f"{len(seconds)} agents were trained in {minutes} minutes, added up over "
+        f"all processes ({each} s each). The folder thesis beside this page holds "
         "every table as CSV and every figure as SVG."
     )

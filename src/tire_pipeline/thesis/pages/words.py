@@ -8,26 +8,28 @@ from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
+from tire_pipeline.pages.numbers_in_words import in_digits
+
 
 def plus_minus(value: float, spread: float, digits: int = 3) -> str:
-    """Return a value with its spread to the same decimals, which are those of two digits of the spread.
+    """Return a value with its spread to the same decimals.
+
+    These are the decimals of two digits of the spread, but the value has no more digits than ``digits``.
 
     Examples
     --------
     >>> plus_minus(0.17, 0.0047), plus_minus(2.912, 2.4), plus_minus(0.17, float("nan"))
-    ('0.1700 ± 0.0047', '2.9 ± 2.4', '0.17')
+    ('0.170 ± 0.005', '2.9 ± 2.4', '0.17')
+    >>> plus_minus(0.99772, 0.00022)
+    '0.998 ± <0.001'
     """
     if pd.isna(value) or pd.isna(spread) or spread == 0.0:
-        return number(value, digits)  # of one training, or the same in all
-    decimals = max(0, 1 - math.floor(math.log10(abs(spread))))
-    return f"{value:,.{decimals}f} ± {spread:,.{decimals}f}"
-
-
-def number(value: float, digits: int = 3) -> str:
-    """A number with significant digits, without powers of ten."""
-    if pd.isna(value):
-        return "–"
-    return f"{value:,.0f}" if abs(value) >= 10**digits else f"{value:.{digits}g}"
+        return in_digits(value, digits)  # of one training, or the same in all
+    of_spread = max(0, 1 - math.floor(math.log10(abs(spread))))
+    most = max(0, digits - 1 - math.floor(math.log10(max(abs(value), abs(spread)))))
+    decimals = min(of_spread, most)
+    seen = f"{spread:,.{decimals}f}" if round(spread, decimals) else f"<{10.0**-decimals:.{decimals}f}"
+    return f"{value:,.{decimals}f} ± {seen}"
 
 
 def points(ours: float, theirs: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from tire_pipeline.channels import ANGLE_CHANNELS, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
+from tire_pipeline.pages.numbers_in_words import in_digits
 
 MOST_LEFT = 0.1
 """RMS of the residuals, over the largest force, beyond which a fit counts as failed."""
@@ -159,7 +160,7 @@ def _units(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) 
     friction = float(np.nanquantile(np.abs(measured) / points["normal_load"], 0.98))
     if output in TANGENTIAL_FORCES and friction > _MOST_FRICTION:
         return (
-            f"Likely reason: units; {output} reaches {friction:.3g} times the load, "
+            f"Likely reason: units; {output} reaches {in_digits(friction)} times the load, "
             f"look at the units of {output} and normal_load (newtons)."
         )
     return ""

@@ -18,6 +18,7 @@ from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
+from tire_pipeline.pages.numbers_in_words import in_digits
 
 FEWEST_POINTS = 10
 
@@ -90,7 +91,7 @@ def _not_measured(name: str, force: np.ndarray) -> str:
     if known.size == 0:
         return "holds no number"
     if name in TANGENTIAL_FORCES and np.ptp(known) == 0.0 and known[0] != 0.0:
-        return f"is {known[0]:.4g} N throughout"
+        return f"is {in_digits(known[0], 4)} N throughout"
     return ""
 
 
