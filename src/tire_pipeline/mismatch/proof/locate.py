@@ -9,7 +9,7 @@ import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
-from tire_pipeline.mismatch.model.channels import CHANCE, largest
+from tire_pipeline.mismatch.model.channels import CHANCE, CLASSES, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -18,7 +18,6 @@ _LEAST_FORCE = 0.1
 _EVEN = 0.7
 """What is off throughout, in no stretch: one share of the force, or one force, that is this part of the
 squared difference."""
-_BINS_OF_AXIS = 16
 
 
 @dataclass(frozen=True)
@@ -109,9 +108,9 @@ def _axes(
             values = data.smooth(axis)
         else:
             continue
-        edges = np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1))
+        edges = np.quantile(values, np.linspace(0.0, 1.0, CLASSES + 1))
         for width in _widths():
-            for k in range(0, _BINS_OF_AXIS + 1 - width, max(1, width // 2)):
+            for k in range(0, CLASSES + 1 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
                 if high - low > 0.02 * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
@@ -149,7 +148,7 @@ def _axes(
 
 def _widths() -> list[int]:
     """Numbers of neighbouring bins that are looked at together: 1, 2, 4 ... up to half of them."""
-    return [2**k for k in range(_BINS_OF_AXIS.bit_length() - 1)]
+    return [2**k for k in range(CLASSES.bit_length() - 1)]
 
 
 def _direction(force: Array) -> Array:
@@ -173,7 +172,7 @@ def _values(data: Data, axis: str) -> Array:
 
 def _profile(values: Array, x: Array) -> Array:
     """Mean over all samples with nearly the same value of an axis."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1)[1:-1]))
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, CLASSES + 1)[1:-1]))
     number = np.searchsorted(edges, values)
     size = np.maximum(np.bincount(number), 1)
     return np.asarray((np.bincount(number, x) / size)[number])
