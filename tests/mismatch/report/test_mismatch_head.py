@@ -101,6 +101,22 @@ def test_explanations_of_which_none_stands_out_are_listed():
     assert many.split(".")[0].endswith(", or others")
 
 
+def test_several_open_causes_are_named_in_a_short_sentence():
+    """With four alternatives it had 60 words: each cause said again that it is not told apart."""
+    one = replace(EFFECT, alternatives=("load_gain", "force_gain"))
+    other = replace(
+        EFFECT, name="slip_angle_offset", title="slip offset", alternatives=("plysteer_conicity",)
+    )
+    told = said("ambiguous", [one, other])
+    first = sentences(told.text)[0]
+    assert len(first.split()) < 40
+    assert all(catalogue()[n].title in first for n in ("load_gain", "force_gain", "plysteer_conicity"))
+    assert any('joined by "or"' in note for note in told.notes)
+    alone = said("ambiguous", [one])
+    assert "this recording cannot tell them apart" in alone.text
+    assert not any('joined by "or"' in note for note in alone.notes)
+
+
 def test_a_cause_without_a_name_stands_beside_what_would_do_as_well():
     """A lag in distance explained all, and the page said that no effect of the catalogue does."""
     told = said("unexplained", left=LEFT, unnamed=FOUND, rivals=[(), ("relaxation_length",)])

@@ -30,6 +30,11 @@ _SAID_IF_UNDECIDED = (
 )
 _NO_NAME = "a cause that the catalogue does not have"
 _EITHER = "a fault of the recording or something that the model leaves out"
+_APART = "this recording cannot tell them apart"
+_SEVERAL_APART = (
+    'This recording cannot tell apart the causes that are joined by "or". Where a fault of the recording is '
+    "among them, nothing may be missing from the model."
+)
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 
 
@@ -76,7 +81,16 @@ def head(
         spot=spot_of(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment, added),
-        notes=tuple(filter(None, [on_placeless(effects, ranges), _more_left(remainder) if effects else ""])),
+        notes=tuple(
+            filter(
+                None,
+                [
+                    _SEVERAL_APART if _several_open(effects) else "",
+                    on_placeless(effects, ranges),
+                    _more_left(remainder) if effects else "",
+                ],
+            )
+        ),
         equation=on_unnamed(unnamed, verdict, rivals),
     )
 
@@ -247,8 +261,9 @@ def _causes(
         return f"I can't tell which of these explains the difference{left}: {listed(sets)}"
     if not effects:
         return f"I can't tell: no effect of the catalogue explains the difference{left}"
+    several = _several_open(effects)
     physics, faults, either = (
-        [_cause(e, ranges) for e in effects if _kinds(e) == kinds]
+        [_cause(e, ranges, "" if several else _APART) for e in effects if _kinds(e) == kinds]
         for kinds in ({"physics"}, {"artefact"}, {"physics", "artefact"})
     )
     parts = []
@@ -258,9 +273,14 @@ def _causes(
         fault = "a fault" if len(faults) == 1 else "faults"
         parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
     if either:
-        parts.append(f"from {' and '.join(either)}: {_EITHER}")
+        parts.append(f"from {' and '.join(either)}{'' if several else f': {_EITHER}'}")
     text = f"{verdict}: the difference comes {', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
+
+
+def _several_open(effects: Sequence[EffectReport]) -> bool:
+    """Whether several causes have alternatives: then a note says once that they are not told apart."""
+    return sum(bool(e.alternatives or e.same_faults) for e in effects) > 1
 
 
 def _kinds(effect: EffectReport) -> set[str]:
@@ -279,11 +299,11 @@ def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
     return f" ({', '.join(said)})" if said and remainder.significant else ""
 
 
-def _cause(effect: EffectReport, ranges: Ranges) -> str:
+def _cause(effect: EffectReport, ranges: Ranges, not_apart: str) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
     names = [effect.title, *(catalogue()[a].title for a in effect.alternatives), *effect.same_faults]
     stretches = stretches_of(effect, ranges)
-    apart = "this recording cannot tell them apart" if len(names) > 1 else ""
+    apart = not_apart if len(names) > 1 else ""
     seen = f"seen {stretches}" if stretches else ""
     said = "; ".join(filter(None, [seen, apart]))
     together = listed(names)
