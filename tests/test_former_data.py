@@ -18,7 +18,7 @@ from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
 from tire_pipeline.errors import TirSyntaxError
 from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
-from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
+from tire_pipeline.retraining.release.compare import balanced_accuracy, compare_models
 from tire_pipeline.tir import read_sidecar, read_tir, write_tir
 from tire_pipeline.tir.sidecar import sidecar_path
 from tire_pipeline.translation import translator_from_state

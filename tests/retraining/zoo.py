@@ -28,8 +28,9 @@ from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.representations.encoded_tires import RepresentParameters
 from tire_pipeline.representations.usable_tires import DedupeFilterParameters, keep_usable
-from tire_pipeline.retraining import ModelRegistry, Store, places
+from tire_pipeline.retraining import ModelRegistry, Store
 from tire_pipeline.retraining import train_and_release as nodes
+from tire_pipeline.retraining.scan import places
 from tire_pipeline.runs import Ticket, take_back, take_turn
 from tire_pipeline.tire_table.binned_features import BinParameters
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters, to_one_nominal_load

@@ -16,9 +16,9 @@ from tire_pipeline.datasets.tables.indexed_frames import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.files.packed import as_parquet
-from tire_pipeline.retraining.ingest import Store
-from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.retraining.scan.manifest import Manifest
+from tire_pipeline.retraining.stored_table.in_steps import Store
+from tire_pipeline.retraining.stored_table.partition import Partition
 from tire_pipeline.tire_table.in_pieces import Piece
 
 _MANIFEST = "manifest.json"

@@ -12,8 +12,8 @@ from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import pack_state, unpack_state
-from tire_pipeline.retraining.model import CategoryModel
-from tire_pipeline.retraining.release import (
+from tire_pipeline.retraining.release.model import CategoryModel
+from tire_pipeline.retraining.release.record import (
     KEPT_MODELS,
     TO_GO_BACK,
     WITHOUT_ANY_MODEL,

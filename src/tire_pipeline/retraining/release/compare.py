@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.retraining.model import CategoryModel
+from tire_pipeline.retraining.release.model import CategoryModel
 
 CANDIDATE, RELEASED = "candidate", "released"
 BALANCED = "all, balanced"

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.retraining.model import CategoryModel
+from tire_pipeline.retraining.release.model import CategoryModel
 
 KEPT_MODELS = 20
 KEPT_EVENTS = 1000

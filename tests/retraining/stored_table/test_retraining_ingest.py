@@ -12,7 +12,8 @@ import pytest
 from retraining_files import put, tir_text
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest, manifest
+from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest
+from tire_pipeline.retraining.scan import manifest
 from tire_pipeline.tir import read_tir
 
 

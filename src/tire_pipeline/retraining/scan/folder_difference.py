@@ -10,9 +10,9 @@ from pathlib import Path
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
-from tire_pipeline.retraining.hash_together import hash_in_blocks
-from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.retraining.places import UNREADABLE, Look, place_at
+from tire_pipeline.retraining.scan.hash_together import hash_in_blocks
+from tire_pipeline.retraining.scan.manifest import Manifest
+from tire_pipeline.retraining.scan.places import UNREADABLE, Look, place_at
 from tire_pipeline.tasks import Map, in_turn
 
 

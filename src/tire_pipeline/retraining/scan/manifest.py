@@ -9,7 +9,7 @@ from dataclasses import astuple, dataclass, field, replace
 from typing import Any, Self
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.retraining.places import Look
+from tire_pipeline.retraining.scan.places import Look
 
 MANIFEST_FORMAT = 1
 _BEFORE_ENTRIES = b',"files":{'

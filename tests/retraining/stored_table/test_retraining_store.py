@@ -32,7 +32,7 @@ from tire_pipeline.retraining import (
     roll_back,
 )
 from tire_pipeline.retraining import train_model as train
-from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.retraining.stored_table.partition import Partition
 from tire_pipeline.tir import read_tir
 
 REPLACE = os.replace
@@ -121,7 +121,7 @@ def test_a_damaged_part_is_named_with_what_to_do(dataset, files, name):
 
 
 def test_what_is_new_changes_few_parts_and_no_more_are_read(dataset, tmp_path, monkeypatch):
-    monkeypatch.setattr("tire_pipeline.retraining.partition.PIECE_ROWS", 4)
+    monkeypatch.setattr("tire_pipeline.retraining.stored_table.partition.PIECE_ROWS", 4)
     folder = tmp_path / "tir"
     put_fleet(folder, range(10), "AB")
     dataset.save(_ingested(dataset, folder))
@@ -323,8 +323,10 @@ def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three, pl
 
 
 def _parts_of(monkeypatch, rows: int) -> None:
-    for module in ("ingest", "partition"):
-        monkeypatch.setattr(sys.modules[f"tire_pipeline.retraining.{module}"], "PIECE_ROWS", rows)
+    for module in ("in_steps", "partition"):
+        monkeypatch.setattr(
+            sys.modules[f"tire_pipeline.retraining.stored_table.{module}"], "PIECE_ROWS", rows
+        )
 
 
 def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset, tmp_path, monkeypatch):

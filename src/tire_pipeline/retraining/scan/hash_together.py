@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tire_pipeline.retraining.places import UNREADABLE, Place
+from tire_pipeline.retraining.scan.places import UNREADABLE, Place
 
 FILES_HASHED = 1000
 """So many files are hashed together: a tenth of a second on a local disk."""

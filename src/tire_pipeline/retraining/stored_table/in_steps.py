@@ -15,11 +15,11 @@ from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import Objects, UnreachableError
 from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, joined
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
-from tire_pipeline.retraining.partition import Partition
-from tire_pipeline.retraining.places import UNREADABLE, Look, Place, place_at
-from tire_pipeline.retraining.read_together import category_of, read_in_blocks
-from tire_pipeline.retraining.scan import FolderDifference
+from tire_pipeline.retraining.scan.folder_difference import FolderDifference
+from tire_pipeline.retraining.scan.manifest import Manifest, ManifestEntry
+from tire_pipeline.retraining.scan.places import UNREADABLE, Look, Place, place_at
+from tire_pipeline.retraining.stored_table.partition import Partition
+from tire_pipeline.retraining.stored_table.read_together import category_of, read_in_blocks
 from tire_pipeline.tasks import Done, Map, in_turn
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.from_models import from_models, join_tables
