@@ -3,7 +3,7 @@
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.translation.chosen_files import choose_files
+from tire_pipeline.translation.files.chosen_files import choose_files
 from tire_pipeline.translation.parameters import TranslateParameters
 
 FILES = dict.fromkeys(["A/winter/1.tir", "A/2.tir", "B/winter.tir", "Bee/4.tir"], lambda: None)

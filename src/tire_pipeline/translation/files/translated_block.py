@@ -25,7 +25,7 @@ from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
 from tire_pipeline.tire_table.read_blocks import Load
 from tire_pipeline.translation.base import JudgingTranslator
 from tire_pipeline.translation.curves.of_files import file_curves
-from tire_pipeline.translation.of_models import at_one_load, at_own_load
+from tire_pipeline.translation.files.of_models import at_one_load, at_own_load
 from tire_pipeline.translation.result import REFUSED, UNKNOWN, TranslationResult
 
 TABLES = ("sources", "report", "coefficients", "bands")

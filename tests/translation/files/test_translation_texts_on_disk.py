@@ -4,7 +4,7 @@ import pytest
 
 from tire_pipeline.files.packed import pack
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
-from tire_pipeline.translation.translated_folder import TranslatedTexts
+from tire_pipeline.translation.files.translated_folder import TranslatedTexts
 
 
 @pytest.fixture

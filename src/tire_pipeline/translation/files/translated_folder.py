@@ -25,8 +25,7 @@ from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_blocks import digest_of, divided
 from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
 from tire_pipeline.translation.base import JudgingTranslator, judging, translator_from_state
-from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.translated_block import (
+from tire_pipeline.translation.files.translated_block import (
     Given,
     LookForTeachers,
     TranslateBlock,
@@ -36,6 +35,7 @@ from tire_pipeline.translation.translated_block import (
     translated_in,
     unreadable_in,
 )
+from tire_pipeline.translation.parameters import TranslateParameters
 
 Files = Mapping[str, Callable[[], TireModel]]
 Parts = Mapping[str, Callable[[], bytes]]

@@ -15,11 +15,11 @@ from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.row_products import by_row
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
-from tire_pipeline.translation import translated_folder
-from tire_pipeline.translation.chosen_files import choose_files
+from tire_pipeline.translation.files import translated_folder
+from tire_pipeline.translation.files.chosen_files import choose_files
+from tire_pipeline.translation.files.translated_block import TABLES, table_in, texts_in
+from tire_pipeline.translation.files.translated_folder import join_translated, translate_each
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.translated_block import TABLES, table_in, texts_in
-from tire_pipeline.translation.translated_folder import join_translated, translate_each
 from tire_pipeline.translation.translator import MixedModel
 
 pytestmark = pytest.mark.slow
