@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from fnmatch import fnmatch
 from itertools import islice
 
 from tire_pipeline.errors import DomainError, did_you_mean
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.tire_table.read_blocks import TireFiles
 from tire_pipeline.translation.parameters import TranslateParameters
-
-Files = Mapping[str, Callable[[], TireModel]]
 
 
 def choose_files(
-    files_to_translate: Files, parameters: TranslateParameters
+    files_to_translate: TireFiles, parameters: TranslateParameters
 ) -> dict[str, Callable[[], TireModel]]:
     """Choose files by their path, one of its folders, or a pattern; none is read.
 

@@ -22,7 +22,7 @@ from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
-from tire_pipeline.tire_table.read_blocks import Load
+from tire_pipeline.tire_table.read_blocks import TireFiles
 from tire_pipeline.translation.base import JudgingTranslator
 from tire_pipeline.translation.curves.of_files import file_curves
 from tire_pipeline.translation.files.of_models import at_one_load, at_own_load
@@ -118,7 +118,7 @@ class Sources:
     passing: bool
 
     @classmethod
-    def read(cls, files: Mapping[str, Load], given: Given) -> Self:
+    def read(cls, files: TireFiles, given: Given) -> Self:
         """Read files; one that cannot be read has its reason among the unreadable ones."""
         models, unreadable, passing = dict[str, TireModel](), list[dict[str, str]](), False
         for file, load in files.items():
@@ -159,7 +159,7 @@ class TranslateBlock:
     given : Given
     """
 
-    files: Mapping[str, Load]
+    files: TireFiles
     given: Given
     label = ""
 
@@ -217,7 +217,7 @@ class TranslateBlock:
 class LookForTeachers:
     """Reads some files, and gives what the translator has to know of them to learn from the whole batch."""
 
-    files: Mapping[str, Load]
+    files: TireFiles
     given: Given
     label = ""
 

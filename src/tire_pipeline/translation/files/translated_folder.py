@@ -16,13 +16,13 @@ from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added_files import AddedFiles
+from tire_pipeline.files.read_later import StoredFiles
 from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, plain_rows
 from tire_pipeline.files.state_files import state_digest
-from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
-from tire_pipeline.tire_table.read_blocks import digest_of, divided
+from tire_pipeline.tire_table.read_blocks import TireFiles, digest_of, divided
 from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
 from tire_pipeline.translation.base import JudgingTranslator, judging, translator_from_state
 from tire_pipeline.translation.files.translated_block import (
@@ -37,8 +37,6 @@ from tire_pipeline.translation.files.translated_block import (
 )
 from tire_pipeline.translation.parameters import TranslateParameters
 
-Files = Mapping[str, Callable[[], TireModel]]
-Parts = Mapping[str, Callable[[], bytes]]
 _LOG = logging.getLogger(__name__)
 TRANSLATED_TOGETHER = 500
 """So many files are translated together, two seconds' work."""
@@ -66,7 +64,7 @@ _REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"
 
 def translate_each(
     translator: dict[str, Any],
-    chosen_files: Files,
+    chosen_files: TireFiles,
     normalized_table: pd.DataFrame,
     parameters: TranslateParameters,
     normalize: NormalizeParameters,
@@ -129,7 +127,7 @@ def _depends_on(given: Given, normalized_table: pd.DataFrame, seed: int) -> list
     return common
 
 
-def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> JudgingTranslator:
+def _taught(given: Given, blocks: Mapping[int, TireFiles], work: Map) -> JudgingTranslator:
     """The translator after it has learned from all files: from the rows of those that may teach."""
     tasks = {next(iter(block)): LookForTeachers(block, given) for block in blocks.values()}
     found = [done.result() for done in all_done(work, tasks, "reading files to learn from").values()]
@@ -139,7 +137,7 @@ def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> JudgingTran
 
 
 def join_translated(
-    parts: Parts, translator: dict[str, Any], parameters: TranslateParameters
+    parts: StoredFiles, translator: dict[str, Any], parameters: TranslateParameters
 ) -> tuple[
     Mapping[str, Callable[[], bytes] | None],
     FramesOfRows,
