@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from changing_data import CLOSED, ENTERED, LISTED, ORGANISATIONS, ChangingData
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import (
@@ -26,7 +27,6 @@ from hypothesis.stateful import (
     rule,
     run_state_machine_as_test,
 )
-from zoo import CLOSED, ENTERED, LISTED, ORGANISATIONS, Zoo
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.kedro_runs.run_errors import one_line
@@ -61,9 +61,9 @@ class Machine(RuleBasedStateMachine):
 
     @initialize()
     def begin(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="zoo-"))
-        self.zoo = Zoo(self.folder / "data")
-        self.book = self.zoo.book
+        self.folder = Path(tempfile.mkdtemp(prefix="changing-"))
+        self.data = ChangingData(self.folder / "data")
+        self.book = self.data.book
         self.runs = 0
         self.killed: list[str] = []
         self.good_models = True
@@ -80,168 +80,172 @@ class Machine(RuleBasedStateMachine):
         folder = f"{organisation}/inner" if inner else organisation
         if elsewhere or folder in self.book.closed:
             inner = False
-        name = self.zoo.name(kind)
+        name = self.data.name(kind)
         name = name if elsewhere else f"{folder if inner else organisation}/{name}"
-        self.zoo.write(name, self.zoo.text(organisation), good=True, date=date, elsewhere=elsewhere)
+        self.data.write(name, self.data.text(organisation), good=True, date=date, elsewhere=elsewhere)
 
     @rule(kind=NAMES, organisation=ORGANISATION, number=NUMBER)
     def copy(self, kind, organisation, number):
         content, good = self.book.files[self._pick(self.book.free(), number)]
-        self.zoo.write(
-            f"{organisation}/{self.zoo.name(kind)}", content, good=good, date=None, elsewhere=False
+        self.data.write(
+            f"{organisation}/{self.data.name(kind)}", content, good=good, date=None, elsewhere=False
         )
 
     @rule(number=NUMBER, organisation=ORGANISATION, date=DATE)
     def change(self, number, organisation, date):
         name = self._pick(self.book.free(), number)
-        self.zoo.write(name, self.zoo.text(organisation), good=True, date=date, elsewhere=False)
+        self.data.write(name, self.data.text(organisation), good=True, date=date, elsewhere=False)
 
     @rule(number=NUMBER, content=BAD, date=DATE)
     def corrupt(self, number, content, date):
         name = self._pick(self.book.free(), number)
-        self.zoo.write(name, content, good=False, date=date, elsewhere=False)
+        self.data.write(name, content, good=False, date=date, elsewhere=False)
 
     @precondition(lambda self: len(self.book.free()) > 8)
     @rule(number=NUMBER)
     def remove(self, number):
-        self.zoo.remove(self._pick(self.book.free(), number), elsewhere=False)
+        self.data.remove(self._pick(self.book.free(), number), elsewhere=False)
 
     @precondition(lambda self: self.book.outside)
     @rule(number=NUMBER)
     def remove_elsewhere(self, number):
-        self.zoo.remove(self._pick(self.book.outside, number), elsewhere=True)
+        self.data.remove(self._pick(self.book.outside, number), elsewhere=True)
 
     @precondition(lambda self: len(self.book.free()) > 8)
     @rule(number=NUMBER, kind=KIND)
     def replace_by_no_regular_file(self, number, kind):
-        self.zoo.no_regular_file(self._pick(self.book.free(), number), kind)
+        self.data.no_regular_file(self._pick(self.book.free(), number), kind)
 
     @rule(number=NUMBER)
     def take_the_rights_of_a_file(self, number):
-        self.zoo.take_rights(self._pick(self.book.free(), number))
+        self.data.take_rights(self._pick(self.book.free(), number))
 
     @precondition(lambda self: self.book.unreadable & self.book.free())
     @rule(number=NUMBER)
     def give_them_back(self, number):
-        self.zoo.let_read(self._pick(self.book.unreadable & self.book.free(), number))
+        self.data.let_read(self._pick(self.book.unreadable & self.book.free(), number))
 
     @rule(organisation=ORGANISATION, rights=RIGHTS)
     def close_a_folder(self, organisation, rights):
         folder = f"{organisation}/inner"
         if folder not in self.book.closed:
-            (self.zoo.tir / folder).mkdir(exist_ok=True)
-            self.zoo.close(folder, rights)
+            (self.data.tir / folder).mkdir(exist_ok=True)
+            self.data.close(folder, rights)
 
     @precondition(lambda self: self.book.closed)
     @rule(number=NUMBER)
     def reopen_a_folder(self, number):
-        self.zoo.reopen(self._pick(self.book.closed, number))
+        self.data.reopen(self._pick(self.book.closed, number))
 
     @rule(number=NUMBER, kind=NAMES, organisation=ORGANISATION)
     def rename(self, number, kind, organisation):
         old = self._pick(self.book.free(), number)
-        self.zoo.rename(old, f"{organisation}/{self.zoo.name(kind)}")
+        self.data.rename(old, f"{organisation}/{self.data.name(kind)}")
 
     @rule(circle=LINKS, kind=NAMES, organisation=ORGANISATION, number=NUMBER)
     def link_in_circles(self, circle, kind, organisation, number):
-        name = f"{organisation}/{self.zoo.name(kind)}"
+        name = f"{organisation}/{self.data.name(kind)}"
         closed = set(self.book.files) - self.book.free()
         to = {
             "itself": Path(name).name,
             "nowhere": "absent.tir",
             "above": "../../..",
-            "the folder": self.zoo.tir,
+            "the folder": self.data.tir,
             "its own folder": ".",
-            "a closed folder": self.zoo.tir / self._pick(self.book.closed or {"absent"}, number),
-            "a file": self.zoo.tir / self._pick(self.book.free(), number),
-            "a file in a closed folder": self.zoo.tir / self._pick(closed or {"absent.tir"}, number),
+            "a closed folder": self.data.tir / self._pick(self.book.closed or {"absent"}, number),
+            "a file": self.data.tir / self._pick(self.book.free(), number),
+            "a file in a closed folder": self.data.tir / self._pick(closed or {"absent.tir"}, number),
         }
-        self.zoo.link(name, to[circle])
+        self.data.link(name, to[circle])
 
     @rule(kind=NAMES, organisation=ORGANISATION)
     def link_elsewhere(self, kind, organisation):
-        name = f"{organisation}/{self.zoo.name(kind)}"
-        self.zoo.link(name, self.zoo.elsewhere)
+        name = f"{organisation}/{self.data.name(kind)}"
+        self.data.link(name, self.data.elsewhere)
         self.book.folder_links.add(name)
 
     @precondition(lambda self: self.book.outside)
     @rule(kind=NAMES, organisation=ORGANISATION, number=NUMBER)
     def link_a_file_elsewhere(self, kind, organisation, number):
-        name, target = f"{organisation}/{self.zoo.name(kind)}", self._pick(self.book.outside, number)
-        self.zoo.link(name, self.zoo.elsewhere / target)
+        name, target = f"{organisation}/{self.data.name(kind)}", self._pick(self.book.outside, number)
+        self.data.link(name, self.data.elsewhere / target)
         self.book.file_links[name] = target
 
     @precondition(lambda self: self.book.folder_links)
     @rule(number=NUMBER)
     def unlink_elsewhere(self, number):
         name = self._pick(self.book.folder_links, number)
-        (self.zoo.tir / name).unlink()
+        (self.data.tir / name).unlink()
         self.book.folder_links.remove(name)
 
     @rule()
     def retrain(self):
-        self._retrain(self.zoo.retrain)
+        self._retrain(self.data.retrain)
 
     @rule(number=NUMBER, organisation=ORGANISATION, before=st.booleans())
     def retrain_while_a_new_file_grows(self, number, organisation, before):
         name = self._pick(self.book.free(), number)
-        self.zoo.write(name, self.zoo.text(organisation), good=True, date=None, elsewhere=False)
+        self.data.write(name, self.data.text(organisation), good=True, date=None, elsewhere=False)
         self._retrain(
-            partial(self.zoo.retrain_while_a_file_grows, name=name, before=before), "" if before else name
+            partial(self.data.retrain_while_a_file_grows, name=name, before=before),
+            "" if before else name,
         )
 
     def _retrain(self, run, grows=""):
-        before = self.zoo.registry().release
+        before = self.data.registry().release
         try:
             run(self._version())
         except Exception as error:
             if not one_line(error):  # a traceback; others say that there is no model, nothing to train on...
                 raise
-            assert self.zoo.registry().release == before
+            assert self.data.registry().release == before
         self.book.rows = self.book.rows_after_a_run(grows)
-        assert self.zoo.agrees(self.book.rows)
+        assert self.data.agrees(self.book.rows)
 
     @rule(step=st.integers(0, 14))
     def retrain_and_be_killed(self, step):
         version = self._version()
-        if self.zoo.retrain_and_be_killed(version, step):
+        if self.data.retrain_and_be_killed(version, step):
             self.killed.append(version)
         after = self.book.rows_after_a_run()
-        if self.zoo.agrees(after):  # as before the run, or as after it: nothing in between
+        if self.data.agrees(after):  # as before the run, or as after it: nothing in between
             self.book.rows = after
         else:
-            assert self.zoo.agrees(self.book.rows)
+            assert self.data.agrees(self.book.rows)
 
     @rule()
     def roll_back(self):
-        registry = self.zoo.registry()
+        registry = self.data.registry()
         whole = [name for name in registry.release.models[:-1] if name not in registry.unusable]
         if whole:
-            self.zoo.roll_back()
-            assert self.zoo.registry().release.current == whole[-1]
-            assert self.zoo.released.load().model is not None
+            self.data.roll_back()
+            assert self.data.registry().release.current == whole[-1]
+            assert self.data.released.load().model is not None
         else:
             with pytest.raises(DomainError, match=r"no earlier model|no model left"):
-                self.zoo.roll_back()
+                self.data.roll_back()
 
-    @precondition(lambda self: self.zoo.registry().release.current)
+    @precondition(lambda self: self.data.registry().release.current)
     @rule(gone=st.booleans())
     def lose_the_model_in_use(self, gone):
-        path = self.zoo.model_file(self.zoo.registry().release.current)
+        path = self.data.model_file(self.data.registry().release.current)
         if gone or not path.exists():
             path.unlink(missing_ok=True)
         else:
             path.write_bytes(path.read_bytes()[:-25])
 
-    @precondition(lambda self: self.zoo.registry().unusable)
+    @precondition(lambda self: self.data.registry().unusable)
     @rule()
     def begin_anew(self):
-        shutil.rmtree(self.zoo.base / "06_models/released")
+        shutil.rmtree(self.data.base / "06_models/released")
 
     @invariant()
     def files_of_the_user_are_as_they_were(self):
         Machine.steps += 1
-        for folder, files in ((self.zoo.tir, self.book.files), (self.zoo.elsewhere, self.book.outside)):
+        for folder, files in (
+            (self.data.tir, self.book.files),
+            (self.data.elsewhere, self.book.outside),
+        ):
             for name, (content, _) in files.items():
                 if os.geteuid() != 0 and (name in self.book.unreadable or self.book.in_closed(name)):
                     continue  # looked at as soon as it can be read again
@@ -251,11 +255,11 @@ class Machine(RuleBasedStateMachine):
         if not hasattr(self, "folder"):
             return
         for folder in list(self.book.closed):
-            self.zoo.reopen(folder)
+            self.data.reopen(folder)
         self.retrain()
-        assert not [v for v in self.killed if list(self.zoo.base.rglob(f"*/{v}"))]
-        assert not list((self.zoo.base / ".runs").glob("*.json"))
-        assert not list(self.zoo.base.rglob("*.part"))
+        assert not [v for v in self.killed if list(self.data.base.rglob(f"*/{v}"))]
+        assert not list((self.data.base / ".runs").glob("*.json"))
+        assert not list(self.data.base.rglob("*.part"))
         shutil.rmtree(self.folder)
 
 
@@ -264,7 +268,7 @@ COMMON = {"deadline": None, "suppress_health_check": list(HealthCheck), "derando
 
 @pytest.mark.parametrize("rights", [CLOSED, LISTED, ENTERED])
 def test_sockets_lost_rights_and_files_that_grow(rights):
-    """What a slice of the zoo may not draw, one after the other."""
+    """What a fixed part of the steps may not draw, one after the other."""
     machine = Machine()
     machine.begin()
     for organisation in ORGANISATIONS:
@@ -283,12 +287,12 @@ def test_sockets_lost_rights_and_files_that_grow(rights):
     machine.teardown()
 
 
-def test_a_fixed_slice_of_the_zoo():
+def test_a_fixed_part_of_the_random_steps():
     run_state_machine_as_test(Machine, settings=settings(max_examples=2, stateful_step_count=30, **COMMON))
 
 
 @pytest.mark.long
-def test_two_thousand_steps_in_the_zoo():
+def test_two_thousand_random_steps():
     Machine.steps = 0
     begun = time.monotonic()
     run_state_machine_as_test(Machine, settings=settings(max_examples=60, stateful_step_count=50, **COMMON))
@@ -298,7 +302,7 @@ def test_two_thousand_steps_in_the_zoo():
 
 @pytest.fixture
 def pipeline(tmp_path):
-    """A zoo, and ``kedro run`` in it as cron starts it."""
+    """Data that change, and ``kedro run`` in it as cron starts it."""
     shutil.copytree(ROOT / "conf", tmp_path / "conf")
     data = tmp_path / "data"
     (tmp_path / "conf/small/globals.yml").write_text(f"data: {data}\ntir_folder: {data}/01_raw/tir\n")
@@ -322,46 +326,46 @@ def pipeline(tmp_path):
         assert done.returncode == 0, said
         return said
 
-    zoo = Zoo(data)
+    changing = ChangingData(data)
     for name in ("1.tir", "2.tir"):
-        zoo.write(name, zoo.text("D"), good=True, date=None, elsewhere=True)
-    return zoo, kedro
+        changing.write(name, changing.text("D"), good=True, date=None, elsewhere=True)
+    return changing, kedro
 
 
 @pytest.mark.long
-def test_the_whole_pipeline_in_the_zoo(pipeline):
-    zoo, kedro = pipeline
-    book = zoo.book
+def test_the_whole_pipeline_on_data_that_change(pipeline):
+    changing, kedro = pipeline
+    book = changing.book
     for kind in ("plain", "latin", "control", "escape", "long"):
-        zoo.write(f"A/{zoo.name(kind)}", zoo.text("A"), good=True, date=0.0, elsewhere=False)
-        zoo.write(f"B/{zoo.name(kind)}", b"no tire", good=False, date=None, elsewhere=False)
-        zoo.link(f"D/{zoo.name(kind)}", zoo.elsewhere)
-        zoo.link(f"D/{zoo.name(kind)}", "absent.tir")
-        zoo.link(f"D/{zoo.name(kind)}", ".")
-        os.mkfifo(zoo.tir / "D" / zoo.name(kind))
-    zoo.link("D/self.tir", "self.tir")
+        changing.write(f"A/{changing.name(kind)}", changing.text("A"), good=True, date=0.0, elsewhere=False)
+        changing.write(f"B/{changing.name(kind)}", b"no tire", good=False, date=None, elsewhere=False)
+        changing.link(f"D/{changing.name(kind)}", changing.elsewhere)
+        changing.link(f"D/{changing.name(kind)}", "absent.tir")
+        changing.link(f"D/{changing.name(kind)}", ".")
+        os.mkfifo(changing.tir / "D" / changing.name(kind))
+    changing.link("D/self.tir", "self.tir")
     book.folder_links.add("all of them")
     kedro("retrain")
     book.rows = book.rows_after_a_run()
-    assert zoo.agrees(book.rows)
-    first = zoo.registry().release.current
+    assert changing.agrees(book.rows)
+    first = changing.registry().release.current
 
     for name in [name for name, (_, good) in book.files.items() if good][::3]:
-        zoo.write(name, zoo.text("A"), good=True, date=None, elsewhere=False)
+        changing.write(name, changing.text("A"), good=True, date=None, elsewhere=False)
     for name in list(book.files)[::4]:
-        zoo.rename(name, f"B/{zoo.name('latin')}")
+        changing.rename(name, f"B/{changing.name('latin')}")
     for name in list(book.files)[1::4]:
-        zoo.write(name, b"spoiled", good=False, date=None, elsewhere=False)
-    zoo.remove("1.tir", elsewhere=True)
+        changing.write(name, b"spoiled", good=False, date=None, elsewhere=False)
+    changing.remove("1.tir", elsewhere=True)
     kedro("retrain")
     book.rows = book.rows_after_a_run()
-    assert zoo.agrees(book.rows)
+    assert changing.agrees(book.rows)
     kedro("ingest_tir")
-    counts = pd.read_csv(zoo.base / "08_reporting/tables/ingest_report.csv").groupby("status").size()
+    counts = pd.read_csv(changing.base / "08_reporting/tables/ingest_report.csv").groupby("status").size()
     assert counts["read"] == sum(good for _, good in book.reached().values())
 
-    second = zoo.registry().release.current
+    second = changing.registry().release.current
     assert second != first
-    zoo.model_file(second).unlink()
+    changing.model_file(second).unlink()
     kedro("rollback")
-    assert zoo.registry().release.current == first
+    assert changing.registry().release.current == first

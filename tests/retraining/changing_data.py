@@ -102,7 +102,7 @@ class Book:
         return rows
 
 
-class Zoo:
+class ChangingData:
     """The folders, and what can be done to them."""
 
     def __init__(self, base: Path) -> None:
