@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from tire_pipeline.optimizers import uncompiled
+from tire_pipeline.small_networks import one_torch_thread, uncompiled
 
 pytestmark = pytest.mark.slow
 
@@ -33,3 +33,18 @@ def test_the_same_steps_to_the_last_bit(kind, options):
     own = _trained(uncompiled(kind), options)
     assert own == _trained(kind, options)
     assert own == _trained(uncompiled(kind), options)  # torch has wrapped its own class by now
+
+
+def test_one_thread_in_the_block_and_as_many_as_before_after_it():
+    def failing_block():
+        with one_torch_thread():
+            raise ValueError(torch.get_num_threads())
+
+    before = torch.get_num_threads()
+    torch.set_num_threads(3)
+    try:
+        with pytest.raises(ValueError, match=r"^1$"):
+            failing_block()
+        assert torch.get_num_threads() == 3
+    finally:
+        torch.set_num_threads(before)

@@ -1,8 +1,10 @@
-"""Optimisers of torch that leave its compiler alone."""
+"""torch for networks as small as these: optimisers that leave its compiler alone, and one thread."""
 
 from __future__ import annotations
 
 import inspect
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TypeVar, cast
 
 import torch
@@ -38,3 +40,21 @@ def uncompiled(kind: type[_Optimizer]) -> type[_Optimizer]:
     plain = {name: inspect.unwrap(getattr(kind, name)) for name in ("add_param_group", "zero_grad", "step")}
     own = type(kind.__name__, (kind,), {**plain, "step": torch.no_grad()(plain["step"])})
     return cast("type[_Optimizer]", own)
+
+
+@contextmanager
+def one_torch_thread() -> Iterator[None]:
+    """Keep torch to one thread in the block: for networks this small, more only wait for each other.
+
+    Examples
+    --------
+    >>> with one_torch_thread():
+    ...     torch.get_num_threads()
+    1
+    """
+    before = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
