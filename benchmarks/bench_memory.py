@@ -40,11 +40,15 @@ from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, ro
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.retraining import Manifest, ManifestEntry, Store
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
-from tire_pipeline.translation.chosen_files import choose_files
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
+from tire_pipeline.translation.files.chosen_files import choose_files
+from tire_pipeline.translation.files.translated_block import BAND_COLUMNS, TranslatedPart, packed_part
+from tire_pipeline.translation.files.translated_folder import (
+    TRANSLATED_TOGETHER,
+    join_translated,
+    translate_each,
+)
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.translated_block import BAND_COLUMNS, TranslatedPart, packed_part
-from tire_pipeline.translation.translated_folder import TRANSLATED_TOGETHER, join_translated, translate_each
 
 ROOT = Path(__file__).resolve().parents[1]
 STORED = ROOT / "tests/data_of_0_1"

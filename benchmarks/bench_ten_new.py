@@ -18,7 +18,7 @@ import pandas as pd
 
 from tire_pipeline.datasets import IngestStoreDataset
 from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest, look_at
-from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.retraining.stored_table.partition import Partition
 from tire_pipeline.tire_table import KNOWN_COEFFICIENTS, SIZE_KEYS, physical_tire_ids
 
 NEW = "[MODEL]\nFITTYP = 6\n[VERTICAL]\nFNOMIN = 4000\n"

@@ -31,8 +31,8 @@ SEALED = ("concealed.second.", "concealed.open_world.")
 
 SEALED_RIG = "concealed.brush_rig."
 
-USUAL = {"T", "LOG"}
-"""Names that each module gives to its own type variable and to its own logger."""
+USUAL = {"T", "LOG", "Array"}
+"""Names that each module gives to its own type variable, to its own logger, and to an array of numbers."""
 
 METAPHORS = {
     "wish",
@@ -87,6 +87,13 @@ def _constants(module: ast.Module) -> list[str]:
     return [name for name in names if name.isupper() and name.lstrip("_") not in USUAL]
 
 
+def _types(module: ast.Module) -> list[str]:
+    """Types that have got a name, such as ``Read = Callable[[], bytes]``."""
+    named = [each for each in module.body if isinstance(each, ast.Assign) and len(each.targets) == 1]
+    names = [each.targets[0].id.lstrip("_") for each in named if isinstance(each.targets[0], ast.Name)]
+    return [name for name in names if name[:1].isupper() and not name.isupper() and name not in USUAL]
+
+
 def _twice(names: dict[str, list[str]]) -> set[str]:
     places = defaultdict(set)
     for module, own in names.items():
@@ -107,6 +114,14 @@ def test_no_two_classes_of_one_name_nor_one_of_a_sealed_simulator():
     assert sealed
     written = {name: _classes(module) for name, module in _written().items()}
     assert _twice({**written, "sealed": sealed}) == set()
+
+
+def test_no_two_types_of_one_name_nor_one_of_a_class():
+    """Outside of ``mismatch``, whose own types are another matter."""
+    modules = {name: each for name, each in _written().items() if not name.startswith("mismatch.")}
+    names = {name: [*_types(each), *_classes(each)] for name, each in modules.items()}
+    assert {"Read", "StoredFiles", "FilesToMake"} <= set(names["files.read_later"])
+    assert _twice(names) == set()
 
 
 def _constants_of(modules: dict[str, ast.Module]) -> dict[str, list[str]]:

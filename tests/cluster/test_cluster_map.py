@@ -15,10 +15,11 @@ from tire_pipeline.cluster.dask_map import check_address, dask_map
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.files.packed import as_parquet
-from tire_pipeline.retraining import Manifest, Store, difference, hash_together, ingest
-from tire_pipeline.retraining.hash_together import HashTogether
-from tire_pipeline.retraining.places import UNREADABLE
-from tire_pipeline.retraining.read_together import ReadTogether
+from tire_pipeline.retraining import Manifest, Store, difference, ingest
+from tire_pipeline.retraining.scan import hash_together
+from tire_pipeline.retraining.scan.hash_together import HashTogether
+from tire_pipeline.retraining.scan.places import UNREADABLE
+from tire_pipeline.retraining.stored_table.read_together import ReadTogether
 from tire_pipeline.tasks import Labelled, LostTaskError, all_done, end_processes, in_processes, in_turn
 from tire_pipeline.tir import read_tir
 

@@ -28,9 +28,9 @@ from tire_pipeline.reporting.mismatch.explained_recordings import (
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_blocks import divided
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
-from tire_pipeline.translation import translated_folder
+from tire_pipeline.translation.files import translated_folder
+from tire_pipeline.translation.files.translated_folder import join_translated, translate_each
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.translated_folder import join_translated, translate_each
 
 ROOT = Path(__file__).resolve().parents[2]
 STORED = ROOT / "tests" / "data_of_0_1"

@@ -27,8 +27,8 @@ from tire_pipeline.datasets import (
 from tire_pipeline.errors import DomainError, RecordingError, TirError
 from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.retraining import Judged, Manifest, Store, difference, judge
-from tire_pipeline.retraining.partition import Partition
-from tire_pipeline.retraining.release import ModelRegistry, Release
+from tire_pipeline.retraining.release.record import ModelRegistry, Release
+from tire_pipeline.retraining.stored_table.partition import Partition
 from tire_pipeline.runs import LostTicketError, ObjectTicket, OtherRunsOnObjects, take_turn
 from tire_pipeline.tire_table import from_models
 

@@ -15,8 +15,7 @@ from tire_pipeline.retraining import Manifest, Store, difference, ingest
 from tire_pipeline.tir.sidecar import write_sidecar
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "retraining"))
-from retraining_files import put, put_fleet, tir_text
-from zoo import (
+from changing_data import (
     PARAMETERS,
     SHAPE,
     DedupeFilterParameters,
@@ -26,6 +25,7 @@ from zoo import (
     restore_previous,
     to_one_nominal_load,
 )
+from retraining_files import put, put_fleet, tir_text
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch.effects import catalogue
 
-Names = tuple[str, ...]
+EffectNames = tuple[str, ...]
 EXACT = frozenset({"clipping", "stuck_channel", "sign_convention", "unit_error"})
 """Faults that are found without a fit."""
 _WEAK = 1.0
@@ -74,20 +74,20 @@ class KnownCase:
     tire: Any
     recording: pd.DataFrame
     effects: tuple[tuple[str, float], ...]
-    acceptable: Names = ()
+    acceptable: EffectNames = ()
 
     @property
-    def truth(self) -> Names:
+    def truth(self) -> EffectNames:
         """What it holds, as far as a set of effects can say it."""
         return tuple(sorted(name for name, _ in self._told))
 
     @property
-    def right(self) -> tuple[Names, ...]:
+    def right(self) -> tuple[EffectNames, ...]:
         """All sets that are right."""
         ways = []
         for name, size in self._told:
             instead = [(other,) for other in self.acceptable] if self.kind == "ambiguous" else []
-            absent: list[Names] = [()] if size < _WEAK else []
+            absent: list[EffectNames] = [()] if size < _WEAK else []
             ways.append([(name,), *instead, *absent])
         return tuple({tuple(sorted(sum(way, ()))) for way in product(*ways)})
 

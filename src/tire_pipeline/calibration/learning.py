@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import partial
@@ -22,6 +22,7 @@ from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed.scoring.calibration import calibration_error
 from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.files.read_later import FilesToMake, StoredFiles
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learn_sizes import (
     Learnt,
@@ -39,8 +40,6 @@ from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.tasks import Map, all_done, in_turn
 
-Work = dict[str, Callable[[], bytes]]
-Folder = Mapping[str, Callable[[], bytes]]
 _STOPPED_CASE = pickle.dumps(None)
 """Of a case that stops before the sets are weighed, or cannot be made."""
 CASES_A_TASK = 8
@@ -67,7 +66,7 @@ class CalibrateMismatchParameters(Parameters):
     step: float = Field(1.6, ge=1.0)
 
 
-def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
+def reduce_cases(parameters: CalibrateMismatchParameters) -> FilesToMake:
     """Make each tuning case and keep the evidence of its sets; done once for each version of the code."""
     code = code_hash("mismatch", "calibration", "concealed", "magic_formula")
     made = plans(
@@ -100,7 +99,7 @@ def reduced(known: KnownCase) -> Tuning | None:
     return pruned(tuning, sizes) if tuning.rights().any() else None
 
 
-def weigh_cases(reduced_cases: Folder, parameters: CalibrateMismatchParameters) -> Work:
+def weigh_cases(reduced_cases: StoredFiles, parameters: CalibrateMismatchParameters) -> FilesToMake:
     """Work out the evidence of each case's hypotheses about the sizes in use; done once for these sizes."""
     sizes = sha256(json.dumps([learnt().to_dict(), parameters.step]).encode()).hexdigest()[:12]
     return {f"{sizes}/{name}": _WeighedCase(read, parameters.step) for name, read in reduced_cases.items()}
@@ -118,8 +117,8 @@ class _WeighedCase:
 
 
 def learn_sizes(
-    reduced_cases: Folder,
-    weighed_cases: Folder,
+    reduced_cases: StoredFiles,
+    weighed_cases: StoredFiles,
     parameters: CalibrateMismatchParameters,
     *,
     work: Map = in_turn,

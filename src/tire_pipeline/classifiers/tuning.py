@@ -7,7 +7,6 @@ given. SMOTE, if asked for, is applied to the training part of each fold.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from itertools import product
 from typing import Any
@@ -256,8 +255,9 @@ def _train_block(
 ) -> list[dict[str, Any]]:
     """Train networks of one batch size, optimiser and loss; score them after each number of epochs."""
     from tire_pipeline.classifiers.methods.network_batch import TrainingSet, train_networks
+    from tire_pipeline.small_networks import one_torch_thread
 
-    with _one_thread():
+    with one_torch_thread():
         trained = train_networks(
             [TrainingSet(rows, wanted) for _, (rows, wanted, _, _) in block],
             n_classes=n_classes,
@@ -275,19 +275,6 @@ def _train_block(
         for number, networks in trained.items()
         for row in _block_scores(block, networks)
     ]
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Let torch compute in one thread: the networks of several blocks are trained side by side."""
-    import torch
-
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(threads)
 
 
 def _block_scores(block: Block, networks: list[Any]) -> Iterator[dict[str, float]]:

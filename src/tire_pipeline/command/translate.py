@@ -73,7 +73,7 @@ def command(
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
     from tire_pipeline.translation.base import judging, translator_from_state
-    from tire_pipeline.translation.of_models import translate_models
+    from tire_pipeline.translation.files.of_models import translate_models
 
     model = read_tir(file, unloaded_radius=radius)
     state, source = translator_state(stored)

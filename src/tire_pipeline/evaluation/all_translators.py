@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -13,9 +13,9 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
+from tire_pipeline.tire_table.read_blocks import TireFiles
 from tire_pipeline.translation import translator_from_state
 
-Files = Mapping[str, Callable[[], TireModel]]
 UNJUDGED = "own files"
 THESIS_AGENT = "thesis' agent"
 OUR_AGENT = "our agent"
@@ -23,8 +23,8 @@ NO_CHANGE = "no change"
 
 
 def choose_sources(
-    evaluation_sources: Files,
-    tir_files: Files,
+    evaluation_sources: TireFiles,
+    tir_files: TireFiles,
     splits: pd.DataFrame,
     parameters: EvaluateParameters,
     target_category: str,
@@ -78,8 +78,8 @@ def choose_sources(
 
 def translate_files(
     chosen: dict[str, Any],
-    evaluation_sources: Files,
-    tir_files: Files,
+    evaluation_sources: TireFiles,
+    tir_files: TireFiles,
     agent: dict[str, Any],
     our_agent: dict[str, Any],
     translator: dict[str, Any],
@@ -125,7 +125,7 @@ def translators(
 
 
 def read_chosen(
-    chosen: dict[str, Any], evaluation_sources: Files, tir_files: Files
+    chosen: dict[str, Any], evaluation_sources: TireFiles, tir_files: TireFiles
 ) -> tuple[dict[str, TireModel], pd.DataFrame]:
     """Read the chosen files, as models and as a tire table."""
     files = evaluation_sources if chosen["folder"] == "evaluation" else tir_files

@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline import __version__
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import THESIS_METRICS, curves_of, evaluate_translations
-from tire_pipeline.evaluation.all_translators import Files, read_chosen, translated_by, translators
+from tire_pipeline.evaluation.all_translators import read_chosen, translated_by, translators
 from tire_pipeline.evaluation.parameters import EvaluateParameters
 from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.magic_formula import TireModel
@@ -20,14 +20,15 @@ from tire_pipeline.tir import read_tir, tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
+from tire_pipeline.tire_table.read_blocks import TireFiles
 from tire_pipeline.translation.result import TRANSLATED
 
 TUNING = "tuning"
 
 
 def choose_best(
-    evaluation_sources: Files,
-    tuning_truth: Files,
+    evaluation_sources: TireFiles,
+    tuning_truth: TireFiles,
     agent: dict[str, Any],
     our_agent: dict[str, Any],
     translator: dict[str, Any],
@@ -77,7 +78,9 @@ def choose_best(
     return {"name": min(ratios, key=lambda name: ratios[name]), "tires": len(tires), "rms_ratio": ratios}
 
 
-def _tuning_files(sources: Files, truth: Files, target: str, most: int) -> tuple[list[str], list[str]]:
+def _tuning_files(
+    sources: TireFiles, truth: TireFiles, target: str, most: int
+) -> tuple[list[str], list[str]]:
     """Up to ``most`` tuning tires that the target measured, and the other categories' files of them."""
     files = [file for file in sources if file.split("/")[0] == TUNING and file.split("/")[1] != target]
     tires = sorted({file.split("/")[-1] for file in files})
@@ -89,8 +92,8 @@ def write_best(
     translated_table: pd.DataFrame,
     best: dict[str, Any],
     chosen: dict[str, Any],
-    evaluation_sources: Files,
-    tir_files: Files,
+    evaluation_sources: TireFiles,
+    tir_files: TireFiles,
     target_category: str,
 ) -> dict[str, bytes]:
     """Write the best translator's files; those that it refuses or leaves alone are not written.

@@ -7,10 +7,11 @@ import pandas as pd
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
 from tire_pipeline.evaluation.all_translators import NO_CHANGE, UNJUDGED
-from tire_pipeline.evaluation.target_measurements import Files, measured
+from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.progress import track
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
+from tire_pipeline.tire_table.read_blocks import TireFiles
 
 ORACLE = "oracle"
 FLOOR = "floor"
@@ -20,7 +21,7 @@ _SUMMARY_COLUMNS = ["set", "translator", "metric", "rms", "ratio", "improved", "
 
 def judge(
     translated_table: pd.DataFrame,
-    evaluation_truth: Files,
+    evaluation_truth: TireFiles,
     normalize: NormalizeParameters,
     target_category: str,
 ) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:

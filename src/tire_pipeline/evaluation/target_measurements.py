@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.read_blocks import TireFiles
 
-Files = Mapping[str, Callable[[], TireModel]]
 
-
-def measured(truth: Files, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
+def measured(truth: TireFiles, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
     """The target's measurements in one folder of the truth, row by row those of ``tires``."""
     names = [f"{folder}/{tire}.tir" for tire in dict.fromkeys(tires)]
     absent = [name for name in names if name not in truth]

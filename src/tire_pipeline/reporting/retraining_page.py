@@ -12,9 +12,9 @@ from tire_pipeline.files.rows_on_disk import REPORT_ROWS, joined
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.reporting.page_parts import without_empty_columns
 from tire_pipeline.retraining import ModelRegistry
-from tire_pipeline.retraining.drift import DRIFT, FEWEST_FILES, NEW, PSI_LIMIT, RISK, TOO_FEW
-from tire_pipeline.retraining.ingest import READ
-from tire_pipeline.retraining.release import history_rows
+from tire_pipeline.retraining.release.drift import DRIFT, FEWEST_FILES, NEW, PSI_LIMIT, RISK, TOO_FEW
+from tire_pipeline.retraining.release.record import history_rows
+from tire_pipeline.retraining.stored_table.in_steps import READ
 
 _MOST_SHOWN = 20
 _TITLE_OF_COLUMN = {

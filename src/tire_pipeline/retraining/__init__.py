@@ -1,13 +1,19 @@
 """Retraining when files arrive: what is new, what has drifted, whether the new model may replace the old."""
 
-from tire_pipeline.retraining.compare import BALANCED, compare_models, not_worse
-from tire_pipeline.retraining.drift import drift_of_features
-from tire_pipeline.retraining.held_out import held_out_rows
-from tire_pipeline.retraining.ingest import Store, ingest, ingest_in_steps
-from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
-from tire_pipeline.retraining.model import CategoryModel, train_model
-from tire_pipeline.retraining.release import Judged, ModelRegistry, Release, judge, roll_back
-from tire_pipeline.retraining.scan import FolderDifference, Look, difference, look_at, settled_difference
+from tire_pipeline.retraining.release.compare import BALANCED, compare_models, not_worse
+from tire_pipeline.retraining.release.drift import drift_of_features
+from tire_pipeline.retraining.release.held_out import held_out_rows
+from tire_pipeline.retraining.release.model import CategoryModel, train_model
+from tire_pipeline.retraining.release.record import Judged, ModelRegistry, Release, judge, roll_back
+from tire_pipeline.retraining.scan.folder_difference import (
+    FolderDifference,
+    Look,
+    difference,
+    look_at,
+    settled_difference,
+)
+from tire_pipeline.retraining.scan.manifest import Manifest, ManifestEntry
+from tire_pipeline.retraining.stored_table.in_steps import Store, ingest, ingest_in_steps
 
 __all__ = [
     "BALANCED",

@@ -33,9 +33,9 @@ from tire_pipeline.retraining import (
     settled_difference,
     train_model,
 )
-from tire_pipeline.retraining.compare import CANDIDATE, RELEASED, balanced_accuracy
-from tire_pipeline.retraining.release import UNCHANGED, check_split
-from tire_pipeline.retraining.scan import check_removed
+from tire_pipeline.retraining.release.compare import CANDIDATE, RELEASED, balanced_accuracy
+from tire_pipeline.retraining.release.record import UNCHANGED, check_split
+from tire_pipeline.retraining.scan.folder_difference import check_removed
 from tire_pipeline.tasks import Map, in_turn
 from tire_pipeline.tire_table import TableInPieces
 from tire_pipeline.tire_table.binned_features import BinParameters

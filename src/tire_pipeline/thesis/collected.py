@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.files.read_later import StoredFiles
 from tire_pipeline.thesis.experiments.experiment_files import together
 from tire_pipeline.thesis.pages.whole_page import thesis_page
 from tire_pipeline.thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.thesis.result_files import result_files
 from tire_pipeline.thesis.result_tables import Results
 
-Folder = Mapping[str, Callable[[], bytes]]
 #: Order of the experiments among the inputs of ``collect``.
 EXPERIMENTS = (
     "class_counts",
@@ -32,7 +31,7 @@ def collect(
     splits: pd.DataFrame,
     parameters: ReproduceThesisParameters,
     target_category: str,
-    *folders: Folder,
+    *folders: StoredFiles,
 ) -> Results:
     """Put the parts of all experiments and of all cells together.
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from tire_pipeline.errors import DomainError
 
 Kind = Literal["equal_width", "equal_frequency"]
-State = dict[str, np.ndarray | str | int | float]
+BinningState = dict[str, np.ndarray | str | int | float]
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class Binning:
         scaled = centres[np.arange(numbers.shape[1]), numbers.astype(np.int64)]
         return self.low + scaled * (self.high - self.low)
 
-    def to_state(self) -> State:
+    def to_state(self) -> BinningState:
         """Return all of it as arrays and text, for JSON or NPZ."""
         return {
             "names": np.array(self.names, dtype=np.str_),

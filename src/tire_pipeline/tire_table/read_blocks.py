@@ -18,7 +18,10 @@ from tire_pipeline.files.packed import as_parquet, from_parquet, member, pack, s
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
-Load = Callable[[], TireModel]
+LoadTire = Callable[[], TireModel]
+"""Reads one file."""
+TireFiles = Mapping[str, LoadTire]
+"""Name of a file -> what reads it."""
 FILES = 250
 """So many files are read together, about a second's work."""
 _TABLE_PART, _REPORT_PART = "table.parquet", "rows.json"
@@ -49,7 +52,7 @@ class ReadBlock:
         ``category/.../name.tir`` to the function that reads it.
     """
 
-    files: Mapping[str, Load]
+    files: TireFiles
     label = ""
 
     def __call__(self) -> TablePart:
@@ -93,7 +96,7 @@ class ReadBlock:
         return _packed(from_models([]), rows, PassingPart)
 
 
-def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
+def blocks_of(files: TireFiles) -> dict[str, ReadBlock]:
     """Divide files into blocks by their names: a file that is new changes one block only.
 
     Returns
@@ -109,12 +112,12 @@ def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
     }
 
 
-def divided(files: Mapping[str, Load], most: int = FILES) -> dict[int, dict[str, Load]]:
+def divided(files: TireFiles, most: int = FILES) -> dict[int, dict[str, LoadTire]]:
     """Number -> files of a block, about ``most``, sorted: by the hashes of their names."""
     count = 1
     while count * most < len(files):
         count *= 2
-    members: list[dict[str, Load]] = [{} for _ in range(count)]
+    members: list[dict[str, LoadTire]] = [{} for _ in range(count)]
     for file in sorted(files):
         members[int(hashlib.sha256(file.encode()).hexdigest()[:8], 16) % count][file] = files[file]
     return {number: block for number, block in enumerate(members) if block}
@@ -141,7 +144,7 @@ def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[TablePar
     return kept(pack(content))
 
 
-def digest_of(block: Mapping[str, Load]) -> str:
+def digest_of(block: TireFiles) -> str:
     """A hash of what files depend on; another one each time where a reader cannot tell."""
     total = hashlib.sha256()
     for file, load in block.items():
@@ -149,7 +152,7 @@ def digest_of(block: Mapping[str, Load]) -> str:
     return total.hexdigest()[:16]
 
 
-def _fingerprint(load: Load) -> str:
+def _fingerprint(load: LoadTire) -> str:
     own = getattr(load, "fingerprint", None)
     if own is not None:
         return str(own())

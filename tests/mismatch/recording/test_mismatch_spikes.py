@@ -1,5 +1,7 @@
 """Before any explanation: single samples that a disturbance put far off change nothing."""
 
+from functools import cache
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -23,11 +25,17 @@ FAR_OFF = {
 }
 
 
+@pytest.fixture(scope="module")
+def report_of(tire, record):
+    """What is said of the run of a friction; of each one once."""
+    return cache(lambda friction=1.0: explain_mismatch(tire, record(friction=friction)))
+
+
 @pytest.mark.parametrize(("friction", "verdict"), [(1.0, "agrees"), (0.85, "explained")])
-def test_what_is_said_of_a_recording_is_said_of_it_with_spikes(tire, record, friction, verdict):
+def test_what_is_said_of_a_recording_is_said_of_it_with_spikes(tire, record, report_of, friction, verdict):
     """One sample in a thousand made a recording unusable, or unexplained."""
-    run = record(friction=friction)
-    plain, found = explain_mismatch(tire, run), explain_mismatch(tire, spiked(run, **FAR_OFF))
+    plain = report_of(friction)
+    found = explain_mismatch(tire, spiked(record(friction=friction), **FAR_OFF))
     assert plain.verdict in (verdict, "ambiguous")
     assert [names for names, _ in found.sets] == [names for names, _ in plain.sets]
     assert found.verdict == plain.verdict
@@ -72,13 +80,18 @@ def points(tire, seed=0, **change):
     return table.sample(frac=1.0, random_state=seed).reset_index(drop=True)
 
 
+@pytest.fixture(scope="module", params=[1.0, 0.85])
+def table_and_report(tire, request):
+    """Steady points with some friction, and what is said of them."""
+    table = points(tire, LMUY=request.param)
+    return table, explain_mismatch(tire, table)
+
+
 @pytest.mark.parametrize("wrong", [lambda f: -f, lambda f: 0.0, lambda f: 10.0 * f])
-@pytest.mark.parametrize("change", [{}, {"LMUY": 0.85}])
-def test_one_wrong_point_of_a_table_changes_nothing_that_is_said(tire, wrong, change):
+def test_one_wrong_point_of_a_table_changes_nothing_that_is_said(tire, table_and_report, wrong):
     """A turned sign of one point of TYDEX gave three causes with 1.0 each."""
-    table = points(tire, **change)
+    table, plain = table_and_report
     row = int(table["fy"].idxmax())
-    plain = explain_mismatch(tire, table)
     report = explain_mismatch(tire, spiked(table, fy={row: wrong(table["fy"][row])}))
     assert report.verdict == plain.verdict
     assert [names for names, _ in report.sets] == [names for names, _ in plain.sets]
@@ -94,7 +107,7 @@ def test_no_point_is_left_out_for_what_a_tire_does(tire, change, seed):
     assert not prepare(tire, points(tire, seed, **change)).left_out
 
 
-def test_a_wheel_that_stands_says_nothing(tire, record):
+def test_a_wheel_that_stands_says_nothing(tire, record, report_of):
     """After a run the rig stands at some slip, without a force: that was a dependence on speed with 1.0."""
     run = record()
     at_rest = run.iloc[:200].assign(speed=0.01, slip_angle=0.08, fy=0.0)
@@ -105,7 +118,7 @@ def test_a_wheel_that_stands_says_nothing(tire, record):
     step = float(np.median(np.diff(run["time"])))
     at_rest["time"] = run["time"].iloc[-1] + step * np.arange(1, 201)
     report = explain_mismatch(tire, pd.concat([run, at_rest], ignore_index=True))
-    plain = explain_mismatch(tire, run)
+    plain = report_of(1.0)
     assert (report.verdict, report.sets) == (plain.verdict, plain.sets)
     assert report.fit["fy"].rms_before == pytest.approx(plain.fit["fy"].rms_before)
     assert any("200 samples left out: the wheel stands" in note for note in report.notes)

@@ -12,7 +12,7 @@ import pytest
 from tire_pipeline.reporting import retraining_page
 from tire_pipeline.reporting.retraining_page import build_retraining_report
 from tire_pipeline.retraining import ModelRegistry, Release, drift_of_features
-from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
+from tire_pipeline.retraining.release.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "viz"))
 

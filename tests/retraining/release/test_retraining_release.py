@@ -28,7 +28,7 @@ from tire_pipeline.retraining import (
     roll_back,
     train_model,
 )
-from tire_pipeline.retraining.release import check_split
+from tire_pipeline.retraining.release.record import check_split
 from tire_pipeline.tire_table import normalize_table
 
 SPLIT = "share 0.2, seed 0"

@@ -9,7 +9,7 @@ import pytest
 from retraining_files import put, tir_text, update_store
 
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, settled_difference
-from tire_pipeline.retraining.places import fingerprint
+from tire_pipeline.retraining.scan.places import fingerprint
 from tire_pipeline.tir import read_tir
 
 

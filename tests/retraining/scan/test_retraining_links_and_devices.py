@@ -14,7 +14,7 @@ from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.files.regular_file import NotRegularError, open_regular
 from tire_pipeline.retraining import look_at
-from tire_pipeline.retraining.places import UNREADABLE, fingerprint
+from tire_pipeline.retraining.scan.places import UNREADABLE, fingerprint
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.read_files import IngestParameters
 

@@ -105,8 +105,8 @@ def test_a_folder_that_vanishes_while_it_is_read_takes_nothing_with_it(tmp_path,
     elif gone == "before its files are looked at":
         monkeypatch.setattr(os, "stat", vanishing(os.stat, lambda path: path))
     else:
-        opened = "tire_pipeline.retraining.places.open_regular"
-        from tire_pipeline.retraining.places import open_regular
+        opened = "tire_pipeline.retraining.scan.places.open_regular"
+        from tire_pipeline.retraining.scan.places import open_regular
 
         monkeypatch.setattr(opened, vanishing(open_regular, lambda path: path))
     store, status, _ = update_store(folder)

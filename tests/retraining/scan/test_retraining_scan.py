@@ -10,8 +10,8 @@ from retraining_files import put, tir_text
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
-from tire_pipeline.retraining.places import fingerprint
-from tire_pipeline.retraining.scan import check_removed
+from tire_pipeline.retraining.scan.folder_difference import check_removed
+from tire_pipeline.retraining.scan.places import fingerprint
 from tire_pipeline.tasks import Done, in_turn
 
 
@@ -26,7 +26,9 @@ def known(tmp_path):
 
 def test_nothing_new_reads_nothing(known, monkeypatch):
     folder, manifest = known
-    monkeypatch.setattr("tire_pipeline.retraining.places.fingerprint", lambda path: pytest.fail("was read"))
+    monkeypatch.setattr(
+        "tire_pipeline.retraining.scan.places.fingerprint", lambda path: pytest.fail("was read")
+    )
     assert not difference(folder, manifest)
 
 

@@ -14,7 +14,7 @@ from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.retraining import Store, difference, ingest, look_at
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.read_files import read_files
-from tire_pipeline.translation.translated_block import Given, Sources
+from tire_pipeline.translation.files.translated_block import Given, Sources
 
 root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root to drop rights")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,9 @@ from tire_pipeline.concealed.baselines import BASELINES, with_all_inputs
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files.packed import as_parquet, pack, unpack
+from tire_pipeline.files.read_later import Read
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.tir import read_tir, tir_bytes
-
-Read = Callable[[], bytes]
 
 
 def made_case(seed: int, kind: str) -> bytes:

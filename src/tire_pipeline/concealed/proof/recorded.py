@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -16,7 +15,6 @@ from tire_pipeline.concealed import unseal
 from tire_pipeline.concealed.proof import case_files as files
 from tire_pipeline.concealed.proof.simulated import (
     METHOD,
-    Folder,
     ProveConcealedParameters,
     answers_of,
     explain_cases,
@@ -27,12 +25,11 @@ from tire_pipeline.concealed.real import RealAnswer, real_plan
 from tire_pipeline.concealed.real.published import published
 from tire_pipeline.concealed.real.score_sets import score_real
 from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
+from tire_pipeline.files.read_later import FilesToMake, StoredFiles
 from tire_pipeline.tasks import Labelled
 
-Work = dict[str, Callable[[], bytes]]
 
-
-def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
+def real_cases_to_make(parameters: ProveConcealedParameters) -> FilesToMake:
     """Make the cases from the sealed sweeps; none if the recordings are not available."""
     real = parameters.real
     folder = Path(real.recordings)
@@ -47,25 +44,25 @@ def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
     }
 
 
-def part_real_cases(made: Folder) -> tuple[Work, Work, dict[str, Any]]:
+def part_real_cases(made: StoredFiles) -> tuple[FilesToMake, FilesToMake, dict[str, Any]]:
     """Separate what is shown, what is held out, and the answers, which are sealed by a hash."""
     return part_cases(made, RealAnswer)
 
 
-def explain_real_cases(shown: Folder) -> Work:
+def explain_real_cases(shown: StoredFiles) -> FilesToMake:
     """Explain every case from real recordings; neither answers nor held-out forces are available here."""
     return explain_cases(shown)
 
 
-def explain_real_by_baselines(shown: Folder, parameters: ProveConcealedParameters) -> Work:
+def explain_real_by_baselines(shown: StoredFiles, parameters: ProveConcealedParameters) -> FilesToMake:
     """The same cases by the baselines."""
     return explained_by(shown, parameters.real.baselines)
 
 
 def score_real_proof(
-    explained: Folder,
-    by_baselines: Folder,
-    held_out: Folder,
+    explained: StoredFiles,
+    by_baselines: StoredFiles,
+    held_out: StoredFiles,
     sealed: dict[str, Any],
     parameters: ProveConcealedParameters,
 ) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import PurePosixPath
 from typing import Any, Literal
@@ -16,12 +16,12 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
 from tire_pipeline.concealed.proof import case_files as files
 from tire_pipeline.concealed.real.parameters import RealParameters
+from tire_pipeline.files.read_later import StoredFiles
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Labelled
 from tire_pipeline.tir import read_tir
 
-Folder = Mapping[str, Callable[[], bytes]]
 METHOD = "explain_mismatch"
 
 
@@ -59,7 +59,7 @@ def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[]
 
 
 def part_cases(
-    made: Folder, form: type[Answer] = Answer
+    made: StoredFiles, form: type[Answer] = Answer
 ) -> tuple[dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]], dict[str, Any]]:
     """Separate what is shown, what is held out, and the answers, which are sealed by a hash.
 
@@ -78,7 +78,7 @@ def part_cases(
     return shown, held_out, {"sha256": sha256, "answers": data.decode()}
 
 
-def explain_cases(shown: Folder) -> dict[str, Callable[[], bytes]]:
+def explain_cases(shown: StoredFiles) -> dict[str, Callable[[], bytes]]:
     """Explain every case; neither answers nor held-out forces are available here."""
     code = code_hash("mismatch", "magic_formula", "tir")
     return {
@@ -93,13 +93,13 @@ def _case(name: str) -> str:
 
 
 def explain_by_baselines(
-    shown: Folder, parameters: ProveConcealedParameters
+    shown: StoredFiles, parameters: ProveConcealedParameters
 ) -> dict[str, Callable[[], bytes]]:
     """The same cases by the baselines."""
     return explained_by(shown, parameters.baselines)
 
 
-def explained_by(shown: Folder, methods: Sequence[str]) -> dict[str, Callable[[], bytes]]:
+def explained_by(shown: StoredFiles, methods: Sequence[str]) -> dict[str, Callable[[], bytes]]:
     """Say how each case is explained by each of these baselines."""
     code = code_hash("concealed/baselines", "magic_formula", "tir")
     return {
@@ -112,7 +112,7 @@ def explained_by(shown: Folder, methods: Sequence[str]) -> dict[str, Callable[[]
 
 
 def score_proof(
-    explained: Folder, by_baselines: Folder, held_out: Folder, sealed: dict[str, Any]
+    explained: StoredFiles, by_baselines: StoredFiles, held_out: StoredFiles, sealed: dict[str, Any]
 ) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:
     """Score all methods against the sealed answers.
 
@@ -148,7 +148,7 @@ def score_proof(
 
 
 def answers_of(
-    explained: Folder, by_baselines: Folder, held_out: Folder
+    explained: StoredFiles, by_baselines: StoredFiles, held_out: StoredFiles
 ) -> Iterator[tuple[str, tuple[dict[str, Any], dict[str, Any]]]]:
     """Yield each method with its reports and its held-out errors by case."""
     truth = {files.unpack(read())["case_id"].decode(): read for read in held_out.values()}

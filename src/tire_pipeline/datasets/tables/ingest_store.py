@@ -8,24 +8,23 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from kedro.io.core import AbstractDataset
-
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.datasets.tables.indexed_frames import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.files.packed import as_parquet
-from tire_pipeline.retraining.ingest import Store
-from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.retraining.scan.manifest import Manifest
+from tire_pipeline.retraining.stored_table.in_steps import Store
+from tire_pipeline.retraining.stored_table.partition import Partition
 from tire_pipeline.tire_table.in_pieces import Piece
 
 _MANIFEST = "manifest.json"
 _TODO = "delete this folder: the next run reads all files again"
 
 
-class IngestStoreDataset(AbstractDataset[Store, Store]):
+class IngestStoreDataset(DatasetAtPath[Store, Store]):
     """A folder with ``manifest.json`` and the ``part-*.parquet`` that it names.
 
     Parts that are new are written first, under names that no other content has; renaming the manifest is the
@@ -45,10 +44,6 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
     DomainError
         On loading: the manifest is damaged, or a part when it is read. On saving: another run was faster.
     """
-
-    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
-        self._path = path
-        self.metadata = metadata
 
     def load(self) -> Store:
         """Manifest and table; both empty if nothing was stored yet."""
@@ -116,9 +111,6 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
 
     def _exists(self) -> bool:
         return files_at(self._path).exists(_MANIFEST)
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}
 
 
 def _stored(folder: Files | Objects, number: int, piece: Piece) -> tuple[str, str, int, tuple[str, ...]]:

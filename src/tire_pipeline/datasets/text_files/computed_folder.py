@@ -7,9 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from kedro.io.core import AbstractDataset
-
 from tire_pipeline.cluster import work_map
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.text_files.text_folder import inside
 from tire_pipeline.datasets.text_files.text_objects import NEVER_DELETED
@@ -21,7 +20,7 @@ from tire_pipeline.tasks import LostTaskError
 Compute = Callable[[], bytes]
 
 
-class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Compute]]):
+class ComputedFolderDataset(DatasetAtPath[Mapping[str, Compute], dict[str, Compute]]):
     """Saves ``{name: function that gives bytes}``: each file whole, several at a time, resumable.
 
     A file that exists is right, because its name must say all that it depends on (seed, settings, content,
@@ -54,10 +53,9 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         only_the_last: bool = False,
         metadata: dict[str, Any] | None = None,
     ) -> None:
-        self._path = path
+        super().__init__(path=path, metadata=metadata)
         self._what = what or f"computing {Path(path).name}"
         self._only_the_last = only_the_last
-        self.metadata = metadata
 
     def save(self, data: Mapping[str, Compute]) -> None:
         """Compute and write what is not there yet."""
@@ -114,6 +112,3 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
 
     def _exists(self) -> bool:
         return files_at(self._path).exists(self._INDEX)
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
-from kedro.io.core import AbstractDataset
-
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.text_files.text_folder import made_at
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import is_remote
 
 
-class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
+class MadeFilesDataset(DatasetAtPath[NoReturn, list[str]]):
     """Loads as the paths of those files in a folder that :class:`.TextFolderDataset` wrote; never written.
 
     Parameters
@@ -22,10 +21,6 @@ class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
     metadata : dict, optional
         For kedro-viz.
     """
-
-    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
-        self._path = path
-        self.metadata = metadata
 
     def load(self) -> list[str]:
         """Paths relative to the folder."""
@@ -39,6 +34,3 @@ class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
         if is_remote(self._path):
             return True
         return Path(self._path).exists()
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}

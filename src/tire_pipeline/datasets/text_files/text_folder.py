@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from kedro.io.core import AbstractDataset
-
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.text_files import text_objects
 from tire_pipeline.datasets.text_files.text_objects import (
     MARKER,
@@ -30,7 +29,7 @@ from tire_pipeline.progress import track
 _LONGEST_NAME = 255
 
 
-class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], Mapping[str, bytes]]):
+class TextFolderDataset(DatasetAtPath[Mapping[str, Content | None], Mapping[str, bytes]]):
     """Saves ``{relative path: text, or a function that gives it}`` as files; loads them one by one.
 
     The folder is replaced whole. With ``keep``, or if the texts are :class:`.AddedFiles`, what earlier runs
@@ -52,10 +51,9 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], Mapping[st
     def __init__(
         self, *, path: str, suffix: str = "", keep: bool = False, metadata: dict[str, Any] | None = None
     ) -> None:
-        self._path = path
+        super().__init__(path=path, metadata=metadata)
         self._suffix = suffix
         self._keep = keep
-        self.metadata = metadata
 
     def load(self) -> Mapping[str, bytes]:
         """Every file as bytes, read when it is asked for; an absent folder has none."""
@@ -109,11 +107,6 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], Mapping[st
             with (temporary / MARKER).open("w", encoding="utf-8", newline="\n") as marker:
                 marker.write(f"{MARKER_HEAD}\n")
                 marker.writelines(f"{name}\n" for name in made)
-
-    def _exists(self) -> bool:
-        if is_remote(self._path):
-            return bool(Objects(self._path).names())
-        return Path(self._path).exists()
 
     def _describe(self) -> dict[str, Any]:
         return {"path": self._path, "suffix": self._suffix}

@@ -6,14 +6,13 @@ import json
 import re
 from typing import Any
 
-from kedro.io.core import AbstractDataset
-
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import pack_state, unpack_state
-from tire_pipeline.retraining.model import CategoryModel
-from tire_pipeline.retraining.release import (
+from tire_pipeline.retraining.release.model import CategoryModel
+from tire_pipeline.retraining.release.record import (
     KEPT_MODELS,
     TO_GO_BACK,
     WITHOUT_ANY_MODEL,
@@ -25,7 +24,7 @@ _RECORD = "record.json"
 _MODEL_NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
 
-class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
+class ReleaseDataset(DatasetAtPath[ModelRegistry, ModelRegistry]):
     """A folder with ``record.json`` and ``models/<name>.npz``.
 
     A model is written before the record names it; renaming the record is the single step that puts it in
@@ -51,10 +50,9 @@ class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
     def __init__(
         self, *, path: str, for_going_back: bool = False, metadata: dict[str, Any] | None = None
     ) -> None:
-        self._path = path
+        super().__init__(path=path, metadata=metadata)
         self._files = files_at(path)
         self._for_going_back = for_going_back
-        self.metadata = metadata
 
     def load(self) -> ModelRegistry:
         """The record and the model in use; an empty registry if nothing was released."""
@@ -132,9 +130,6 @@ class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
 
     def _exists(self) -> bool:
         return self._files.exists(_RECORD)
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}
 
 
 def _model(name: str) -> str:

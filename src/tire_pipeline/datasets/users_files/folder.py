@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
-from kedro.io.core import AbstractDataset
-
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects, is_remote
 
 
-class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):
+class FolderDataset(DatasetAtPath[NoReturn, Path | Objects]):
     """Loads as the path of a folder that is there, or as the objects below an address; never written.
 
     Parameters
@@ -25,10 +24,6 @@ class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):
     DomainError
         The folder is absent, or there is nothing below the address.
     """
-
-    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
-        self._path = path
-        self.metadata = metadata
 
     def load(self) -> Path | Objects:
         """The path, or the objects."""
@@ -52,6 +47,3 @@ class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):
 
     def _exists(self) -> bool:
         return not Objects(self._path).is_empty() if is_remote(self._path) else Path(self._path).is_dir()
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}

@@ -13,8 +13,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any, NoReturn
 
 import pandas as pd
-from kedro.io.core import AbstractDataset
 
+from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
@@ -31,7 +31,7 @@ _PART_BYTES = 1 << 20
 Pair = tuple[TireModel | None, pd.DataFrame]
 
 
-class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]]):
+class RecordingFolderDataset(DatasetAtPath[None, dict[str, Callable[[], Pair]]]):
     """Gives every recording below a folder, with its tire; it never writes.
 
     The tire is the ``.tir`` of the same name, else the only one in the same folder; the function takes
@@ -50,10 +50,6 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
     DomainError
         If there is no recording below the folder.
     """
-
-    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
-        self._path = path
-        self.metadata = metadata
 
     def load(self) -> dict[str, Callable[[], Pair]]:
         """Relative path of each recording to the function that reads it and its tire."""
@@ -79,14 +75,6 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
     def save(self, data: None) -> None:
         """Refuse: the recordings are the user's."""
         raise DomainError("recordings of the user are never changed", where=self._path)
-
-    def _exists(self) -> bool:
-        if is_remote(self._path):
-            return bool(Objects(self._path).names())
-        return Path(self._path).exists()
-
-    def _describe(self) -> dict[str, Any]:
-        return {"path": self._path}
 
 
 @dataclass(frozen=True)

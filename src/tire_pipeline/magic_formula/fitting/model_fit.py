@@ -124,7 +124,7 @@ def fit_magic_formula(
     model = TireModel.from_coefficients(base, version)
     forces, lone = without_lone_points(points, forces)
     notes += [*said, *lone]
-    report = _Report(notes, start is not None)
+    report = _FitNotes(notes, start is not None)
     options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
         simpler = None
@@ -158,7 +158,7 @@ def _stages(
     points: Mapping[str, np.ndarray],
     forces: Mapping[str, np.ndarray],
     options: Options,
-    report: _Report,
+    report: _FitNotes,
     simpler: TireModel | None,
 ) -> TireModel:
     """Go through the outputs, each on top of those before: stage by stage, then all stages together."""
@@ -246,7 +246,7 @@ def _as_52(
     plain = TireModel.from_coefficients(
         {n: v for n, v in base.items() if n not in ("NOMPRES", "INFLPRES")}, "5.2"
     )
-    return _stages(plain, points, forces, options, _Report([], False), None).replace(
+    return _stages(plain, points, forces, options, _FitNotes([], False), None).replace(
         **{n: base[n] for n in ("NOMPRES", "INFLPRES")}
     )
 
@@ -267,7 +267,7 @@ def _thinned(rows: np.ndarray) -> np.ndarray:
     return rows[np.linspace(0, rows.size - 1, _MOST_FITTED_POINTS).round().astype(int)]
 
 
-class _Report:
+class _FitNotes:
     """What the stages have to say, gathered."""
 
     def __init__(self, notes: list[str], from_start: bool) -> None:

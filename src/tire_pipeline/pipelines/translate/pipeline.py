@@ -4,9 +4,9 @@ from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
-from tire_pipeline.translation.chosen_files import choose_files
+from tire_pipeline.translation.files.chosen_files import choose_files
+from tire_pipeline.translation.files.translated_folder import join_translated, translate_each
 from tire_pipeline.translation.fitted import fit_translator
-from tire_pipeline.translation.translated_folder import join_translated, translate_each
 
 
 def create_pipeline(**_: object) -> Pipeline:

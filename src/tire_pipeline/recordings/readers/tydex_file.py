@@ -76,7 +76,7 @@ def read_tydex(path: Path) -> RawRecording:
     return RawRecording("TYDEX", channels, constants, notes, comments)
 
 
-class _Rows:
+class _MeasuredRows:
     """The numbers of the data section, gathered line by line in little memory."""
 
     def __init__(self, path: Path) -> None:
@@ -113,12 +113,12 @@ class _Rows:
         )
 
 
-def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str], _Rows | None]:
+def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str], _MeasuredRows | None]:
     """Lines by section, with their numbers; the free text of **COMMENTS; the data."""
     found: dict[str, list[tuple[int, str]]] = {}
     comments: list[str] = []
     current: str | None = None
-    rows: _Rows | None = None
+    rows: _MeasuredRows | None = None
     with path.open(encoding="latin-1", newline=None) as file:
         for number, line in enumerate(file, 1):
             line = line.rstrip()
@@ -133,7 +133,7 @@ def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str], 
                             where=f"{path}:{number}",
                             todo="split the file: one measurement each",
                         )
-                    rows = _Rows(path)
+                    rows = _MeasuredRows(path)
                 found.setdefault(current, [])
             elif current == "COMMENTS":
                 comments.append(line.lstrip("! "))

@@ -25,7 +25,7 @@ from tire_pipeline.tir.sidecar import sidecar_path
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
 PAGE = "page.html"
-Load = Callable[..., tuple[TireModel | None, pd.DataFrame]]
+LoadPair = Callable[..., tuple[TireModel | None, pd.DataFrame]]
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class ExplainTask:
     """
 
     name: str
-    loads: Mapping[str, Load]
+    loads: Mapping[str, LoadPair]
     how: Mapping[str, Mapping[str, Any]]
     held_out: str | None
     learnt: LearntSizes = field(default_factory=learnt)

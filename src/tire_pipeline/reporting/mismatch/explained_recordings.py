@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from functools import partial
@@ -16,20 +16,26 @@ from pydantic import Field
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.files.packed import member, unpack
+from tire_pipeline.files.read_later import Read
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
-from tire_pipeline.reporting.mismatch.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
+from tire_pipeline.reporting.mismatch.explain_task import (
+    COLUMNS,
+    PAGE,
+    ExplainTask,
+    LoadPair,
+    corrected_files,
+)
 from tire_pipeline.reporting.mismatch.result_names import result_place
 
 _REPORT = "report.json"
 _MOST_TOLD = 3
 """Recordings whose problem an error names."""
 
-Pairs = Mapping[str, Load]
-Read = Callable[[], bytes]
+Pairs = Mapping[str, LoadPair]
 
 
 class RecordingRule(Parameters):

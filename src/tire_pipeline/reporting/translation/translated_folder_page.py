@@ -16,9 +16,9 @@ from tire_pipeline.reporting import Table
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.reporting.translation.translated_rows import listed, median_expected
+from tire_pipeline.translation.files.translated_block import curves_in, has_tables, table_in
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
-from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in
 
 _PROTOCOLS = (
     "Categories that changed how they measure, as their files show: the day with its 90% range, the "
@@ -44,7 +44,8 @@ def translate_page(
     ----------
     report : iterable of DataFrame
     parts : mapping
-        What was translated (:func:`.translation.translated_folder.translate_each`); read one after the other.
+        What was translated (:func:`.translation.files.translated_folder.translate_each`); read one after
+        the other.
     protocols : DataFrame
     demonstration_files : list of str
         Files that are not the user's own.

@@ -14,6 +14,7 @@ import pandas as pd
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation.target_measurements import measured
+from tire_pipeline.files.read_later import FilesToMake, StoredFiles
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Labelled
@@ -25,8 +26,6 @@ from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.thesis.grid import Cell
 
 Models = Mapping[str, Callable[[], TireModel]]
-Folder = Mapping[str, Callable[[], bytes]]
-Work = dict[str, Callable[[], bytes]]
 
 FORM_OF = {"power_series_stable": "power_series"}
 FITTING_CODE = ("representations",)
@@ -74,12 +73,12 @@ def _category(file: str) -> str:
     return file.split("/")[1]
 
 
-def fitter(name: str) -> Callable[..., Work]:
+def fitter(name: str) -> Callable[..., FilesToMake]:
     """Return the node function that fits one representation, once a seed for all its cells."""
 
     def fit_representation(
         normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters
-    ) -> Work:
+    ) -> FilesToMake:
         """Fit on the files that the agents are trained on."""
         training = _training(normalized_table, splits)
         options = parameters.representation_options(name)
@@ -95,21 +94,21 @@ def fitter(name: str) -> Callable[..., Work]:
     return fit_representation
 
 
-def trainer(cell: Cell) -> Callable[..., Work]:
+def trainer(cell: Cell) -> Callable[..., FilesToMake]:
     """Return the node function that trains the agents of one cell, one a seed."""
 
     def train_agents(
         normalized_table: pd.DataFrame,
         splits: pd.DataFrame,
-        fitted: Folder,
+        fitted: StoredFiles,
         parameters: ReproduceThesisParameters,
         target_category: str,
-    ) -> Work:
+    ) -> FilesToMake:
         """Train on the files of the random split's training part, as in the thesis."""
         training = _training(normalized_table, splits)
         options: dict[str, Any] = {"target": target_category, "total_steps": parameters.agents.total_steps}
         data = files.key_of(code_hash(*TRAINING_CODE), training, asdict(cell), options)
-        work: Work = {}
+        work: FilesToMake = {}
         for name, read in fitted.items():
             seed = seed_of(name)
             key = files.key_of(data, name)
@@ -130,20 +129,20 @@ def seed_of(name: str) -> int:
     return int(name.rpartition("_")[2].removesuffix(".npz"))
 
 
-def judge_of(cell: Cell) -> Callable[..., Work]:
+def judge_of(cell: Cell) -> Callable[..., FilesToMake]:
     """Return the node function that judges the agents of one cell."""
 
     def judge(
-        trained: Folder,
+        trained: StoredFiles,
         thesis_sources: pd.DataFrame,
         evaluation_truth: Models,
         normalize: NormalizeParameters,
         target_category: str,
-    ) -> Work:
+    ) -> FilesToMake:
         """Compare with the target's measurements; no agent sees the comparison."""
         references = references_of(evaluation_truth, "first", thesis_sources, normalize, target_category)
         data = files.key_of(code_hash(*JUDGING_CODE), getsource(thesis_agents), thesis_sources, references)
-        work: Work = {}
+        work: FilesToMake = {}
         for name, read in trained.items():
             seed = seed_of(name)
             key = files.key_of(data, name)

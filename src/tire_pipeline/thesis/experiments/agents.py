@@ -14,7 +14,6 @@ from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
 from tire_pipeline.translation.thesis.grid import Cell
 from tire_pipeline.translation.thesis.translator import AgentTranslator
 
-Frames = dict[str, pd.DataFrame]
 _WINDOWS = 60
 
 
@@ -26,7 +25,7 @@ def judged_agent(
     references: pd.DataFrame,
     *,
     curves_of_set: str = "four",
-) -> Frames:
+) -> dict[str, pd.DataFrame]:
     """Translate evaluation tires with one agent and compare with what the target measured.
 
     Parameters
@@ -50,7 +49,7 @@ def judged_agent(
     """
     translator = AgentTranslator.from_state(state)
     found: dict[str, list[pd.DataFrame]] = {"agents": [], "actions": [], "agent_tires": []}
-    kept: Frames = {}
+    kept: dict[str, pd.DataFrame] = {}
     for name in dict.fromkeys(sources["set"]):
         rows = (sources["set"] == name).to_numpy()
         path = translator.follow(sources[rows])
@@ -152,7 +151,7 @@ def thinned_learning_curve(curve: pd.DataFrame) -> pd.DataFrame:
     return thin.reset_index(drop=True)
 
 
-def _drawn(sources: pd.DataFrame, as_tires: dict[str, Curves], decoded: Curves) -> Frames:
+def _drawn(sources: pd.DataFrame, as_tires: dict[str, Curves], decoded: Curves) -> dict[str, pd.DataFrame]:
     """Forces over slip angle, stiffness and friction over load, of every tire and supplier."""
     grid = EvaluationGrid()
     forces, over_load = [], []

@@ -23,8 +23,7 @@ from tire_pipeline.classifiers.tuning import narrowed_grid, tune_ann, tune_fores
 from tire_pipeline.representations import make_representation
 from tire_pipeline.representations.power_series_condition import condition_numbers
 
-Rows = tuple[np.ndarray, np.ndarray]
-Frames = dict[str, pd.DataFrame]
+TrainingAndTestRows = tuple[np.ndarray, np.ndarray]
 
 THESIS_CLASSIFIERS = ("ann", "naive_bayes", "random_forest")
 FURTHER_CLASSIFIERS = ("gradient_boosting", "calibrated")
@@ -44,12 +43,16 @@ def _labels(table: pd.DataFrame) -> np.ndarray:
     return table["category"].to_numpy().astype(str)
 
 
-def class_counts(table: pd.DataFrame, splits: Mapping[str, Rows], *, seed: int) -> Frames:
+def class_counts(
+    table: pd.DataFrame, splits: Mapping[str, TrainingAndTestRows], *, seed: int
+) -> dict[str, pd.DataFrame]:
     """Files of each category, before and after SMOTE (Figures 4.1, 4.2)."""
     return {"class_counts": class_distribution(features_of(table), _labels(table), splits, seed=seed)}
 
 
-def tuned_networks(table: pd.DataFrame, split: str, combinations: pd.DataFrame, *, seed: int) -> Frames:
+def tuned_networks(
+    table: pd.DataFrame, split: str, combinations: pd.DataFrame, *, seed: int
+) -> dict[str, pd.DataFrame]:
     """Cross-validated accuracy of the ANN's hyperparameters (Tables 5.1, 5.3).
 
     Parameters
@@ -77,7 +80,7 @@ def kept_values(scores: pd.DataFrame, *, best: int = 20) -> dict[str, tuple[Any,
 
 def tuned_forest(
     table: pd.DataFrame, split: str, *, trees: int, most_trees: int, most_depth: int, seed: int
-) -> Frames:
+) -> dict[str, pd.DataFrame]:
     """Cross-validated accuracy over trees, then over depth with ``trees`` trees (Figures 5.1, 5.2)."""
     features, labels, tires = features_of(table), _labels(table), tires_of(table, split)
     by_trees = tune_forest_trees(features, labels, most=most_trees, seed=seed, tires=tires)
@@ -87,14 +90,14 @@ def tuned_forest(
 
 def compared(
     table: pd.DataFrame,
-    rows: Rows,
+    rows: TrainingAndTestRows,
     *,
     split: str,
     classifier: str,
     smote: bool,
     seeds: Sequence[int],
     options: Mapping[str, Any] | None = None,
-) -> Frames:
+) -> dict[str, pd.DataFrame]:
     """Train one classifier several times and measure it (Tables 5.6, 5.8, Figure 5.3), and its calibration.
 
     Returns
@@ -126,14 +129,14 @@ def compared(
 
 def by_bins(
     table: pd.DataFrame,
-    rows: Rows,
+    rows: TrainingAndTestRows,
     *,
     split: str,
     representation: str,
     bins: Sequence[int],
     seeds: Sequence[int],
     options: Mapping[str, Any] | None = None,
-) -> Frames:
+) -> dict[str, pd.DataFrame]:
     """Accuracy of the forest against the number of bins (Figures 5.5 to 5.8, Table 5.9)."""
     chosen = {representation: dict(options or {})}
     return {
@@ -143,14 +146,14 @@ def by_bins(
 
 def by_latent_features(
     table: pd.DataFrame,
-    rows: Rows,
+    rows: TrainingAndTestRows,
     *,
     split: str,
     count: int,
     bins: int,
     seeds: Sequence[int],
     options: Mapping[str, Any] | None = None,
-) -> Frames:
+) -> dict[str, pd.DataFrame]:
     """Accuracy of the forest on ``count`` latent features (Figure 5.4)."""
     return {
         "latent": accuracy_by_latent_features(
@@ -159,6 +162,6 @@ def by_latent_features(
     }
 
 
-def power_series_condition(table: pd.DataFrame) -> Frames:
+def power_series_condition(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
     """How ill-conditioned both forms of the power series are."""
     return {"condition": condition_numbers(table)}

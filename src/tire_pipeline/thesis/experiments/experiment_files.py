@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from inspect import getsource
 from itertools import product
@@ -17,14 +17,13 @@ from tire_pipeline.classifiers.tuning import (
     random_combinations,
 )
 from tire_pipeline.code_hash import code_hash
+from tire_pipeline.files.read_later import FilesToMake, StoredFiles
 from tire_pipeline.tasks import Labelled
 from tire_pipeline.thesis.experiments import classifier_experiments as experiments
 from tire_pipeline.thesis.experiments import files
 from tire_pipeline.thesis.experiments.classifier_experiments import FURTHER_CLASSIFIERS, THESIS_CLASSIFIERS
 from tire_pipeline.thesis.parameters import AnnSearchParameters, ReproduceThesisParameters
 
-Folder = Mapping[str, Callable[[], bytes]]
-Work = dict[str, Callable[[], bytes]]
 CODE = ("classifiers", "representations", "tire_table")
 _JOBS = ["batch_size", "optimizer"]
 
@@ -35,7 +34,7 @@ def _code() -> str:
 
 def _part(
     name: str, function: Callable[..., Any], table: pd.DataFrame, *arguments: Any, **options: Any
-) -> Work:
+) -> FilesToMake:
     key = files.key_of(_code(), name, table, *arguments, options)
     task = partial(files.computed, function, table, *arguments, **options)
     return {f"{name}_{key}.npz": Labelled(name.replace("_", " "), task)}
@@ -43,7 +42,7 @@ def _part(
 
 def count_classes(
     normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+) -> FilesToMake:
     """Figures 4.1 and 4.2."""
     rows = {split: split_rows(normalized_table, splits, split) for split in SPLITS}
     key = files.key_of(_code(), normalized_table, splits, seed)
@@ -54,18 +53,18 @@ def count_classes(
 
 def search_at_random(
     normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+) -> FilesToMake:
     """Random search over the ANN's hyperparameters (Table 5.1), on folds of both kinds."""
     combinations = _epochs(random_combinations(parameters.ann.random, seed=seed), parameters.ann)
-    work: Work = {}
+    work: FilesToMake = {}
     for split in SPLITS:
         work |= network_parts(f"{split}", normalized_table, split, combinations, seed)
     return work
 
 
 def search_the_grid(
-    searched: Folder, normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+    searched: StoredFiles, normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
+) -> FilesToMake:
     """Search the grid of the ANN's hyperparameters (Table 5.3): whole, or what the random search leaves.
 
     Parameters
@@ -77,7 +76,7 @@ def search_the_grid(
     seed : int
     """
     found = together(searched)["ann"]
-    work: Work = {}
+    work: FilesToMake = {}
     for split in SPLITS:
         if split not in parameters.ann.whole_grid:
             own = found[found["split"] == split]
@@ -97,9 +96,11 @@ def _epochs(combinations: pd.DataFrame, parameters: AnnSearchParameters) -> pd.D
     return kept.assign(epochs=kept["epochs"].map(other)).reset_index(drop=True)
 
 
-def network_parts(name: str, table: pd.DataFrame, split: str, combinations: pd.DataFrame, seed: int) -> Work:
+def network_parts(
+    name: str, table: pd.DataFrame, split: str, combinations: pd.DataFrame, seed: int
+) -> FilesToMake:
     """Say how networks of each batch size and optimizer are tuned, one part each."""
-    work: Work = {}
+    work: FilesToMake = {}
     for (batch, optimizer), part in combinations.groupby(_JOBS):
         part = part.reset_index(drop=True)
         label = f"{name}_{batch}_{optimizer}"
@@ -107,9 +108,11 @@ def network_parts(name: str, table: pd.DataFrame, split: str, combinations: pd.D
     return work
 
 
-def tune_forest(normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int) -> Work:
+def tune_forest(
+    normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
+) -> FilesToMake:
     """Figures 5.1 and 5.2, on folds of both kinds."""
-    work: Work = {}
+    work: FilesToMake = {}
     for split in SPLITS:
         options = {**parameters.forest.model_dump(), "seed": seed}
         work |= _part(split, experiments.tuned_forest, normalized_table, split, **options)
@@ -118,9 +121,9 @@ def tune_forest(normalized_table: pd.DataFrame, parameters: ReproduceThesisParam
 
 def compare_classifiers(
     normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+) -> FilesToMake:
     """Tables 5.6 and 5.8, Figure 5.3 and reliability, each classifier with and without SMOTE."""
-    work: Work = {}
+    work: FilesToMake = {}
     for split, name, smote in product(SPLITS, (*THESIS_CLASSIFIERS, *FURTHER_CLASSIFIERS), (False, True)):
         own = name in THESIS_CLASSIFIERS
         trainings = parameters.trainings if own else parameters.further_trainings
@@ -139,9 +142,9 @@ def compare_classifiers(
 
 def measure_bins(
     normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+) -> FilesToMake:
     """Figures 5.5 to 5.8 and Table 5.9."""
-    work: Work = {}
+    work: FilesToMake = {}
     for split, name in product(SPLITS, ("latent", "coefficients", "key_attributes", "power_series")):
         work |= _rows(
             f"{split}_{name}",
@@ -159,9 +162,9 @@ def measure_bins(
 
 def measure_latent_features(
     normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
-) -> Work:
+) -> FilesToMake:
     """Figure 5.4."""
-    work: Work = {}
+    work: FilesToMake = {}
     for split, count in product(SPLITS, parameters.latent_counts):
         work |= _rows(
             f"{split}_{count}",
@@ -177,7 +180,7 @@ def measure_latent_features(
     return work
 
 
-def measure_condition(normalized_table: pd.DataFrame) -> Work:
+def measure_condition(normalized_table: pd.DataFrame) -> FilesToMake:
     """Condition numbers of the power series."""
     return _part("power_series", experiments.power_series_condition, normalized_table)
 
@@ -190,7 +193,7 @@ def _rows(
     *,
     split: str,
     **options: Any,
-) -> Work:
+) -> FilesToMake:
     """A part that trains and tests on the rows of one split."""
     rows = split_rows(table, splits, split)
     key = files.key_of(_code(), name, table, *rows, options)
@@ -198,7 +201,7 @@ def _rows(
     return {f"{name}_{key}.npz": Labelled(name.replace("_", " "), task)}
 
 
-def together(*folders: Folder) -> dict[str, pd.DataFrame]:
+def together(*folders: StoredFiles) -> dict[str, pd.DataFrame]:
     """Tables of all parts, appended by name."""
     parts: dict[str, list[pd.DataFrame]] = {}
     for folder in folders:

@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.files.read_later import Read
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.representations import make_representation, representation_from_state
 from tire_pipeline.thesis.experiments.agents import judged_agent, thinned_learning_curve
 from tire_pipeline.translation.thesis.grid import Cell, train_cell
-
-Read = Callable[[], bytes]
 
 
 def key_of(*parts: Any) -> str:

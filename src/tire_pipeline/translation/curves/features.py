@@ -19,7 +19,7 @@ import pandas as pd
 
 from tire_pipeline.representations.coefficients import ALIGNING, LATERAL, LONGITUDINAL
 from tire_pipeline.translation.curves.pure_slip import (
-    Columns,
+    CoefficientColumns,
     Points,
     aligning_torque,
     columns,
@@ -66,7 +66,7 @@ class Group:
     name: str
     coefficients: tuple[str, ...]
     names: tuple[str, ...]
-    of: Callable[[Columns], np.ndarray]
+    of: Callable[[CoefficientColumns], np.ndarray]
 
 
 def _parts(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -104,19 +104,19 @@ def _force_features(level: np.ndarray, slope: np.ndarray, force: np.ndarray) -> 
     return np.concatenate([np.log(slope), np.log(level), _flat(shape), _flat(even / scale)], axis=1)
 
 
-def _lateral_plane(p: Columns) -> tuple[np.ndarray, np.ndarray, Points]:
+def _lateral_plane(p: CoefficientColumns) -> tuple[np.ndarray, np.ndarray, Points]:
     level = _level(lateral_force(p, _PEAK))
     slope = np.maximum(-cornering_stiffness(p, _ORIGIN) / LOADS, 1.0)
     return level, slope, _reduced_points(level, slope)
 
 
-def lateral_features(p: Columns) -> np.ndarray:
+def lateral_features(p: CoefficientColumns) -> np.ndarray:
     """ln cornering stiffness over load, ln friction level, ln shape, even force over friction; (n, 72)."""
     level, slope, points = _lateral_plane(p)
     return _force_features(level, slope, -lateral_force(p, points))
 
 
-def camber_features(p: Columns) -> np.ndarray:
+def camber_features(p: CoefficientColumns) -> np.ndarray:
     """Change of the lateral force by camber, over the load; (n, 20)."""
     return _flat(_change_by_camber(lateral_force(p, _TILTED)))
 
@@ -127,7 +127,7 @@ def _change_by_camber(values: np.ndarray) -> np.ndarray:
     return (curve[:, :, [0, 2]] - curve[:, :, [1]]) / load
 
 
-def longitudinal_features(p: Columns) -> np.ndarray:
+def longitudinal_features(p: CoefficientColumns) -> np.ndarray:
     """ln slip stiffness over load, ln friction level, ln shape, even force over friction; (n, 72)."""
     level = _level(longitudinal_force(p, _PEAK))
     slope = np.maximum(slip_stiffness(p, _ORIGIN) / LOADS, 1.0)
@@ -135,7 +135,7 @@ def longitudinal_features(p: Columns) -> np.ndarray:
     return _force_features(level, slope, force)
 
 
-def aligning_features(p: Columns) -> np.ndarray:
+def aligning_features(p: CoefficientColumns) -> np.ndarray:
     """Odd and even torque over friction level, load and radius, and its change by camber; (n, 84)."""
     level, _, points = _lateral_plane(p)
     odd, even = _parts(aligning_torque(p, points), REDUCED.size)

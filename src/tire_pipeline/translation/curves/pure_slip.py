@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula import forces_batch
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, missing_defaults, pack_mapping
 from tire_pipeline.representations.coefficients import ALIGNING, LATERAL, LONGITUDINAL
 
-Columns = Mapping[str, np.ndarray]
+CoefficientColumns = Mapping[str, np.ndarray]
 """Coefficients by their .tir names, each of shape (n, 1)."""
 
 
@@ -75,7 +75,7 @@ _NEUTRAL_ROW = pack_mapping({}, missing_defaults({}, "5.2"))
 _SCALES = ("LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LTR LRES LGAZ").split()
 
 
-def _output(name: str, p: Columns, points: Points, slip: str = "slip_angle") -> np.ndarray:
+def _output(name: str, p: CoefficientColumns, points: Points, slip: str = "slip_angle") -> np.ndarray:
     """One output of :func:`forces_batch`, shape (n, m), where the other slip is zero."""
     rows = max(len(x) if np.ndim(x) == 2 else 1 for x in (*p.values(), points.slip, points.normal_load))
     matrix = np.tile(_NEUTRAL_ROW, (rows, 1))
@@ -85,36 +85,36 @@ def _output(name: str, p: Columns, points: Points, slip: str = "slip_angle") -> 
     return forces_batch(matrix, **at, outputs=(name,))[name]
 
 
-def cornering_stiffness(p: Columns, points: Points) -> np.ndarray:
+def cornering_stiffness(p: CoefficientColumns, points: Points) -> np.ndarray:
     """K_y of A.25, N/rad, shape (n, m); negative, as ISO W axes have it."""
     return _output("cornering_stiffness", p, points)
 
 
-def peak_friction(p: Columns, points: Points) -> np.ndarray:
+def peak_friction(p: CoefficientColumns, points: Points) -> np.ndarray:
     """mu_y of A.19, shape (n, m)."""
     return _output("friction_y", p, points)
 
 
-def slip_stiffness(p: Columns, points: Points) -> np.ndarray:
+def slip_stiffness(p: CoefficientColumns, points: Points) -> np.ndarray:
     """K_x of A.12, N, shape (n, m)."""
     return _output("slip_stiffness", p, points, "slip_ratio")
 
 
-def peak_friction_x(p: Columns, points: Points) -> np.ndarray:
+def peak_friction_x(p: CoefficientColumns, points: Points) -> np.ndarray:
     """mu_x of A.8, shape (n, m)."""
     return _output("friction_x", p, points, "slip_ratio")
 
 
-def longitudinal_force(p: Columns, points: Points) -> np.ndarray:
+def longitudinal_force(p: CoefficientColumns, points: Points) -> np.ndarray:
     """F_x0 of A.4, N, shape (n, m)."""
     return _output("fx", p, points, "slip_ratio")
 
 
-def lateral_force(p: Columns, points: Points) -> np.ndarray:
+def lateral_force(p: CoefficientColumns, points: Points) -> np.ndarray:
     """F_y0 of A.16, N, shape (n, m)."""
     return _output("fy", p, points)
 
 
-def aligning_torque(p: Columns, points: Points) -> np.ndarray:
+def aligning_torque(p: CoefficientColumns, points: Points) -> np.ndarray:
     """M_z of A.28 to A.41 at zero slip ratio, N m, shape (n, m)."""
     return _output("mz", p, points)

@@ -24,7 +24,7 @@ _LOAD_SLICES = slice(0, LOADS.size), slice(LOADS.size, 2 * LOADS.size), slice(2 
 
 
 @dataclass(frozen=True)
-class Part:
+class CurveProperty:
     """Features that are modelled together: one property of one output.
 
     Attributes
@@ -42,15 +42,15 @@ class Part:
     components: int
 
 
-PARTS: dict[str, Part] = {
-    "cornering stiffness": Part("lateral", _LOAD_SLICES[0], 2),
-    "lateral friction": Part("lateral", _LOAD_SLICES[1], 2),
-    "lateral shape": Part("lateral", _LOAD_SLICES[2], 8),
-    "camber": Part("camber", slice(None), 5),
-    "slip stiffness": Part("longitudinal", _LOAD_SLICES[0], 2),
-    "longitudinal friction": Part("longitudinal", _LOAD_SLICES[1], 2),
-    "longitudinal shape": Part("longitudinal", _LOAD_SLICES[2], 6),
-    "aligning torque": Part("aligning", slice(None), 10),
+PARTS: dict[str, CurveProperty] = {
+    "cornering stiffness": CurveProperty("lateral", _LOAD_SLICES[0], 2),
+    "lateral friction": CurveProperty("lateral", _LOAD_SLICES[1], 2),
+    "lateral shape": CurveProperty("lateral", _LOAD_SLICES[2], 8),
+    "camber": CurveProperty("camber", slice(None), 5),
+    "slip stiffness": CurveProperty("longitudinal", _LOAD_SLICES[0], 2),
+    "longitudinal friction": CurveProperty("longitudinal", _LOAD_SLICES[1], 2),
+    "longitudinal shape": CurveProperty("longitudinal", _LOAD_SLICES[2], 6),
+    "aligning torque": CurveProperty("aligning", slice(None), 10),
 }
 """Stiffness, friction and shape apart: a mechanism acts on one of them, and so does chance."""
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.translation.curves.pure_slip import (
-    Columns,
+    CoefficientColumns,
     Points,
     columns,
     cornering_stiffness,
@@ -31,12 +31,12 @@ SYMMETRY = {
 """Coefficients that are all zero if a curve at zero camber is the same to both sides."""
 
 
-def _dfz(p: Columns) -> np.ndarray:
+def _dfz(p: CoefficientColumns) -> np.ndarray:
     nominal = p["FNOMIN"] * p.get("LFZO", 1.0)
     return (CHECKED_LOADS[None, :] - nominal) / nominal
 
 
-def curvature(group: str, p: Columns) -> np.ndarray:
+def curvature(group: str, p: CoefficientColumns) -> np.ndarray:
     """Curvature factor E before it is bounded by 1, on both sides at ``CHECKED_LOADS``, (n, 2 loads)."""
     dfz = _dfz(p)
     if group == "lateral":
@@ -50,7 +50,7 @@ def curvature(group: str, p: Columns) -> np.ndarray:
     return np.concatenate([level * (1.0 - side), level * (1.0 + side)], axis=1)
 
 
-def curvature_excess(group: str, p: Columns) -> np.ndarray:
+def curvature_excess(group: str, p: CoefficientColumns) -> np.ndarray:
     """By how much the curvature factor exceeds 1, (n, 2 loads or 0)."""
     return np.maximum(curvature(group, p) - 1.0, 0.0)
 

@@ -15,8 +15,8 @@ import pandas as pd
 import torch
 from torch import nn
 
-from tire_pipeline.optimizers import uncompiled
 from tire_pipeline.row_products import by_row
+from tire_pipeline.small_networks import one_torch_thread, uncompiled
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
 
@@ -45,13 +45,9 @@ class CyclePredictor:
         own = training["category"].astype(str) == target
         there = _rows(_situation(model, training.loc[own], target))
         here = _rows(_situation(model, training.loc[~own], target))
-        threads = torch.get_num_threads()
-        torch.set_num_threads(1)
-        try:
-            sizes = len(model.scale), len(model.categories)
+        sizes = len(model.scale), len(model.categories)
+        with one_torch_thread():
             layers = _train(here, there, *sizes, self.rounds, seed)
-        finally:
-            torch.set_num_threads(threads)
         return replace(self, layers=tuple(layers))
 
     def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:

@@ -12,8 +12,8 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.optimizers import uncompiled
 from tire_pipeline.row_products import by_row
+from tire_pipeline.small_networks import one_torch_thread, uncompiled
 from tire_pipeline.training_progress import learn
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
@@ -57,9 +57,7 @@ class PolicyPredictor:
         sources = training.loc[training["category"].astype(str) != target].reset_index(drop=True)
         situation = situation_of(model, sources, target)
         curiosity = Curiosity(situation.observation_size, seed) if self.curious else None
-        threads = torch.get_num_threads()
-        torch.set_num_threads(1)
-        try:
+        with one_torch_thread():
             environment = BatchLikelihoodEnvironment(situation, TIRES_TOGETHER, seed, curiosity)
             agent = PPO(
                 "MlpPolicy",
@@ -82,8 +80,6 @@ class PolicyPredictor:
             )
             steps = self.updates * TIRES_TOGETHER * ROLL_OUT
             learn(agent, steps, TIRES_TOGETHER * ROLL_OUT, "training our agent")
-        finally:
-            torch.set_num_threads(threads)
         learning = tuple(float(info["r"]) for info in agent.ep_info_buffer or [])
         return replace(self, layers=tuple(_layers(agent)), learning=learning)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -66,9 +64,10 @@ def train_agent(
     n_steps, n_envs : int
         Steps of each environment between two updates, and environments.
     """
+    from tire_pipeline.small_networks import one_torch_thread
     from tire_pipeline.translation.thesis.batch_environment import BatchEnv
 
-    with one_thread():
+    with one_torch_thread():
         env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
         model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
         steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
@@ -84,7 +83,7 @@ def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS
     import stable_baselines3
     import torch
 
-    from tire_pipeline.optimizers import uncompiled
+    from tire_pipeline.small_networks import uncompiled
 
     if algorithm not in ALGORITHMS:
         raise DomainError(
@@ -95,16 +94,3 @@ def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS
     if algorithm == "PPO":  # A2C brings an optimiser of its own
         options["policy_kwargs"] = {"optimizer_class": uncompiled(torch.optim.Adam)}
     return cls("MlpPolicy", env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options)
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Keep torch to one thread: for nets this small, more only wait for each other."""
-    import torch
-
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)

@@ -33,7 +33,7 @@ _EITHER = "a fault of the recording or something that the model leaves out"
 _APART = "this recording cannot tell them apart"
 _SEVERAL_APART = (
     'This recording cannot tell apart the causes that are joined by "or". Where a fault of the recording is '
-    "among them, nothing may be missing from the model."
+    "among them, the model may be right."
 )
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 

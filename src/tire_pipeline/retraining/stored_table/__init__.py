@@ -1,0 +1,1 @@
+"""New files read into the stored table, part by part."""
