@@ -81,7 +81,7 @@ def test_a_name_that_reads_as_a_pattern_deletes_that_object_alone(folder):
 
 
 def test_more_objects_than_the_store_deletes_at_a_time_are_deleted(folder, monkeypatch):
-    monkeypatch.setattr("tire_pipeline.files.objects._DELETED_TOGETHER", 2)
+    monkeypatch.setattr("tire_pipeline.files.objects.DELETED_TOGETHER", 2)
     folder.write_many(dict.fromkeys("abcde", b"x"))
     folder.delete("abcde")
     assert folder.names() == []
@@ -92,9 +92,9 @@ def test_what_the_store_does_not_delete_is_told(folder, monkeypatch):
         def call_s3(self, *_, Delete, **__):
             return {"Errors": [{"Key": each["Key"], "Code": "AccessDenied"} for each in Delete["Objects"]]}
 
-    monkeypatch.setattr(folder, "_fs", Refusing())
+    monkeypatch.setattr("fsspec.filesystem", lambda *_, **__: Refusing())
     with pytest.raises(DomainError, match=r"did not delete this \(AccessDenied\)") as found:
-        folder.delete(["07/x.csv/v1/x.csv"])
+        Objects(str(folder)).delete(["07/x.csv/v1/x.csv"])
     assert found.value.where == f"{folder}/07/x.csv/v1/x.csv"
 
 

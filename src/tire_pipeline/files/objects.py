@@ -15,7 +15,7 @@ from typing import Any
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_now
 
-_DELETED_TOGETHER = 1000
+DELETED_TOGETHER = 1000
 """So many objects S3 deletes at a time."""
 _WORDS_OF_CONFLICT = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
 
@@ -297,8 +297,8 @@ class Objects:
         keys = [{"Key": self._key(name).partition("/")[2]} for name in names]
         bucket = self.root.partition("/")[0]
         check_now()
-        for start in range(0, len(keys), _DELETED_TOGETHER):
-            asked = {"Objects": keys[start : start + _DELETED_TOGETHER], "Quiet": True}
+        for start in range(0, len(keys), DELETED_TOGETHER):
+            asked = {"Objects": keys[start : start + DELETED_TOGETHER], "Quiet": True}
             with contextlib.suppress(FileNotFoundError), self._plain_errors(""):
                 refused = self._fs.call_s3("delete_objects", Bucket=bucket, Delete=asked).get("Errors")
                 if refused:
