@@ -36,6 +36,8 @@ from tire_pipeline.datasets import (
     TirFolderDataset,
 )
 from tire_pipeline.files.atomic import write_bytes
+from tire_pipeline.files.packed import pack
+from tire_pipeline.reporting.mismatch.explained_recordings import collect_explained
 from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, rows_to_keep
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.retraining import Manifest, ManifestEntry, Store
@@ -152,18 +154,23 @@ def splits(count: int, place: Path) -> Callable[[], None]:
 
 
 def overview(count: int, place: Path) -> Callable[[], None]:
-    """``explain_mismatch`` notes what each recording's report says, and draws the page of all."""
-    said = dict.fromkeys(("alternatives", "held_out", "problem"), "")
+    """``explain_mismatch`` joins what its tasks gave (made up here), notes it, and draws the page of all."""
+    report = {"report.json": b"{}", "page.html": b"<p>", "a_corrected.tir": b"text"}
+    explained = {}
+    for number in range(count):
+        row = {"recording": f"rig/recording_{number:06d}.csv", "verdict": "explained"}
+        row |= {"effects": "hidden_load", "summary": "a hidden load of 210 N explains 93%. " * 8}
+        explained[f"{number:06d}.zip"] = partial(pack, {"row.json": json.dumps(row).encode(), **report})
 
     def run() -> None:
-        names = [f"rig/recording_{number:06d}.csv" for number in range(count)]
-        summaries = [f"{name}: {'a hidden load of 210 N explains 93%. ' * 8}" for name in names]
-        rows = {"recording": names, "verdict": "explained", "summary": summaries, "effects": "hidden_load"}
-        table = pd.DataFrame({**rows, **said})
-        TextFolderDataset(path=str(place / "rows"), keep=True).save(rows_to_keep(table))
-        kept = TextFolderDataset(path=str(place / "rows"), suffix=".json").load()
-        page, _ = draw_overview(table, [], kept)
-        HtmlPageDataset(filepath=str(place / "page.html")).save(page)
+        _, table, pages, _ = collect_explained(explained)
+        stored = ReportPartsDataset(filepath=f"{place}/overview/index.json")
+        stored.save(table)
+        del table
+        kept = TextFolderDataset(path=f"{place}/rows", suffix=".json", keep=True)
+        kept.save(rows_to_keep(stored.load()))
+        page, _ = draw_overview(stored.load(), list(pages), kept.load())
+        HtmlPageDataset(filepath=f"{place}/page.html").save(page)
 
     return run
 
@@ -173,7 +180,7 @@ STEPS = {
     "join": (join, "`translate`: writes files, report, tables and page", "translated file"),
     "manifest": (manifest, "`retrain`: reads and stores its manifest", "file"),
     "splits": (splits, "`bin`: writes `splits`, and reads them again", "training file"),
-    "overview": (overview, "`explain_mismatch`: notes and lists what it found", "recording"),
+    "overview": (overview, "`explain_mismatch`: joins, notes and lists what it found", "recording"),
 }
 
 

@@ -97,7 +97,7 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     explained.save(explain_each(recordings, ExplainParameters()))
     reports, overview, pages, _ = collect_explained(explained.load())
     assert list(reports) == ["rig/recording.csv"]
-    assert overview.set_index("recording").loc["bad/recording.csv", "problem"]
+    assert joined(overview).set_index("recording").loc["bad/recording.csv", "problem"]
     assert all(b"<html" in read() for read in pages.values())
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 

@@ -107,6 +107,39 @@ def test_added_texts_stay_beside_earlier_ones_of_any_name(tmp_path):
     assert marker.split("\n")[1:] == ["B/two.tir", "C/four.tir", ""]
 
 
+@pytest.mark.parametrize("links", [True, False])
+def test_a_failed_write_beside_earlier_texts_leaves_each_as_it_was(tmp_path, monkeypatch, links):
+    def refused(*_):
+        raise PermissionError("this file system has no hard links")
+
+    if not links:
+        monkeypatch.setattr(os, "link", refused)
+    out = tmp_path / "out"
+    dataset = TextFolderDataset(path=str(out), keep=True)
+    dataset.save({"changed": "old", "kept": "old"})
+    (out / "README.md").write_text("of the user")
+    (out / "link").symlink_to("kept")
+    before = (out / "kept").stat().st_ino
+    marker = (out / ".made_by_tire_pipeline").read_bytes()
+
+    def failing():
+        raise OSError("no more")
+
+    with pytest.raises(DatasetError, match="no more"):
+        dataset.save({"changed": "new", "added": "new", "fails": failing})
+    assert {p.name: p.read_text() for p in out.iterdir() if p.name[0] != "."} == {
+        "changed": "old",
+        "kept": "old",
+        "link": "old",
+        "README.md": "of the user",
+    }
+    assert (out / ".made_by_tire_pipeline").read_bytes() == marker
+    dataset.save({"changed": "new"})
+    assert (out / "changed").read_text() == "new"
+    assert (out / "README.md").read_text() == "of the user"
+    assert ((out / "kept").stat().st_ino == before) is links
+
+
 class ManyNames(Mapping):
     """Names of 200 bytes, which are made when they are asked for."""
 
@@ -120,7 +153,9 @@ class ManyNames(Mapping):
         return 3_000
 
 
-def test_the_names_of_the_texts_are_not_in_memory_together(tmp_path):
+def test_the_names_of_the_texts_are_not_in_memory_together(tmp_path, monkeypatch):
+    shown = "tire_pipeline.datasets.text_files.text_folder.track"
+    monkeypatch.setattr(shown, lambda items, *_, **__: items)  # its display takes more
     dataset = TextFolderDataset(path=str(tmp_path / "out"))
     dataset.save({"a": "1"})
     names = 200 * len(ManyNames())

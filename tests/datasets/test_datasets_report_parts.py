@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
@@ -97,3 +100,23 @@ def test_what_is_not_there_or_damaged_is_said(rows, tmp_path):
     (tmp_path / "report.json/1/part-000003.parquet").write_bytes(b"")
     with pytest.raises(DomainError, match=r"part-000003\.parquet: this part of the table is damaged"):
         joined(dataset.load())
+
+
+FULL = """
+from tire_pipeline.files.rows_on_disk import RowsOnDisk
+
+RowsOnDisk(["text"]).add(("x" * 1000,) for _ in range(20_000))
+"""
+
+
+def test_a_full_disk_of_temporary_files_is_told_by_its_place(tmp_path):
+    mount = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(tmp_path)]
+    if subprocess.run(mount, check=False).returncode != 0:
+        pytest.skip("no right to mount a small disk here")
+    try:
+        small = {**os.environ, "TMPDIR": str(tmp_path)}
+        command = [sys.executable, "-c", FULL]
+        done = subprocess.run(command, env=small, capture_output=True, text=True, check=False)
+    finally:
+        subprocess.run(["umount", str(tmp_path)], check=True)
+    assert f"OSError: [Errno 28] No space left on device: '{tmp_path} (temporary files" in done.stderr

@@ -72,6 +72,32 @@ def test_keys_are_neither_taken_from_an_address_nor_told(bucket, monkeypatch):
     s3fs.S3FileSystem.clear_instance_cache()
 
 
+def test_a_name_that_reads_as_a_pattern_deletes_that_object_alone(folder):
+    kept = ["ab.tir", "run1.html", "x/y.tir"]
+    gone = ["a*.tir", "run[1].html", "**", "x/?.tir"]
+    folder.write_many(dict.fromkeys([*kept, *gone], b"x"))
+    folder.delete([*gone, "absent*"])
+    assert folder.names() == kept
+
+
+def test_more_objects_than_the_store_deletes_at_a_time_are_deleted(folder, monkeypatch):
+    monkeypatch.setattr("tire_pipeline.files.objects.DELETED_TOGETHER", 2)
+    folder.write_many(dict.fromkeys("abcde", b"x"))
+    folder.delete("abcde")
+    assert folder.names() == []
+
+
+def test_what_the_store_does_not_delete_is_told(folder, monkeypatch):
+    class Refusing:
+        def call_s3(self, *_, Delete, **__):
+            return {"Errors": [{"Key": each["Key"], "Code": "AccessDenied"} for each in Delete["Objects"]]}
+
+    monkeypatch.setattr("fsspec.filesystem", lambda *_, **__: Refusing())
+    with pytest.raises(DomainError, match=r"did not delete this \(AccessDenied\)") as found:
+        Objects(str(folder)).delete(["07/x.csv/v1/x.csv"])
+    assert found.value.where == f"{folder}/07/x.csv/v1/x.csv"
+
+
 @pytest.mark.parametrize("dataset", [Objects, lambda path: TirFolderDataset(path=path)])
 @pytest.mark.parametrize("secret", ["seCret", "seC/ret", "seC/r@t", "/seCret"])
 def test_a_secret_key_with_a_slash_is_not_told_either(dataset, secret):
@@ -113,6 +139,16 @@ def test_a_folder_of_texts_is_replaced_and_a_users_folder_is_not(folder):
     with pytest.raises(DatasetError, match="not made by this project"):
         TextFolderDataset(path=f"{folder}/own").save({"a.txt": "1"})
     assert folder.names("own") == ["own/mine.txt"]
+
+
+def test_texts_of_any_name_come_back_and_go(folder):
+    names = ["a\u2028b.tir", "c\x85d.tir", "run[1].tir", "run1.tir", "x*.tir", "%41 +&#.tir", "\u202e.tir"]
+    texts = TextFolderDataset(path=f"{folder}/texts")
+    texts.save(dict.fromkeys(names, "text"))
+    assert dict(texts.load()) == dict.fromkeys(names, b"text")
+    texts.save(dict.fromkeys(["run1.tir", "xy.tir"], "new"))
+    assert dict(texts.load()) == {"run1.tir": b"new", "xy.tir": b"new"}
+    assert len(folder.names("texts")) == 3
 
 
 def test_a_folder_of_texts_whose_write_was_killed_is_not_used(folder):
@@ -346,3 +382,17 @@ def test_a_run_that_was_declared_dead_is_told_so(folder):
     second.check()
     first.end()
     second.end()
+
+
+def test_a_run_that_was_declared_dead_is_told_so_when_others_have_forgotten_it(folder, monkeypatch):
+    monkeypatch.setattr("tire_pipeline.runs.on_objects.KEPT_TICKETS", 1)
+    first = ObjectTicket.draw(folder, run="v1")
+    for number in range(4):
+        later = ObjectTicket.draw(folder, run=f"later{number}")
+        if number == 0:
+            OtherRunsOnObjects(later, 0.5).declare_dead(first.note)
+        later.end()
+    assert not folder.exists(".runs/000001.over")
+    with pytest.raises(LostTicketError):
+        first.check()
+    first.end()

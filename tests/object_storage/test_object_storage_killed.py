@@ -38,6 +38,7 @@ EXPLANATION = [
     ("mismatch_explained/", 2),
     ("mismatch_explained/index.txt", 1),
     ("mismatch_reports.json/", 1),
+    ("mismatch_overview.json/", 2),
     ("08_reporting/mismatch/.made_by", 1),
     ("08_reporting/mismatch/rig/", 1),
     ("corrected/rig/", 1),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from kedro.io import DatasetError
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
 from tire_pipeline.files.objects import Objects, UnreachableError
@@ -169,6 +170,23 @@ def _kill_at(monkeypatch, step: int) -> None:
         monkeypatch.setattr(Objects, name, killing(getattr(Objects, name)))
 
 
+def _does_not_answer_for_models(monkeypatch, shop: Shop) -> None:
+    """That is no damage of a model, which going back would mend."""
+    read = Objects.read
+
+    def failing(self, name, most=None):
+        if name.startswith("models/"):
+            raise UnreachableError("the object store did not do what was asked", where=name, todo="wait")
+        return read(self, name, most)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Objects, "read", failing)
+        for dataset in (shop.released, shop.going_back):
+            with pytest.raises(DatasetError, match="did not do what was asked") as found:
+                dataset.load()
+            assert "rollback" not in str(found.value)
+
+
 def test_a_retraining_killed_before_any_write_loses_nothing(bucket, tmp_path, monkeypatch):
     local = tmp_path / "tir"
     put_fleet(local, range(8))
@@ -179,6 +197,7 @@ def test_a_retraining_killed_before_any_write_loses_nothing(bucket, tmp_path, mo
     first = shop.released.load().release
     assert first.current is not None
     assert len(shop.ingested.load().table) == 24
+    _does_not_answer_for_models(monkeypatch, shop)
 
     put_fleet(local, range(8, 10))
     new = {str(p.relative_to(local)): p.read_bytes() for p in local.rglob("T000[89].tir")}

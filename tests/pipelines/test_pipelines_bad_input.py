@@ -51,6 +51,18 @@ def test_an_empty_folder(tmp_path):
     assert _versions(tmp_path) == []
 
 
+def test_a_data_folder_whose_path_reads_as_a_pattern_is_told_before_anything_is_written(tmp_path):
+    folder = tmp_path / "files [1]"
+    conf = small_conf(folder).rename(tmp_path / "conf")
+    done = kedro_here(tmp_path, "--pipeline", "ingest_tir")
+    assert done.returncode == 1
+    assert "files [1]/data: the path of the data folder holds *, ? or [" in done.stdout + done.stderr
+    assert not list(folder.iterdir())
+    conf.rename(folder / "conf")
+    done = kedro_here(folder, "--pipeline", "ingest_tir")
+    assert "whose path must not hold *, ? or [" in done.stdout + done.stderr
+
+
 def test_one_category_only(tmp_path, small_fleet):
     line = _one_line(kedro_here(_folder(tmp_path, small_fleet, "D"), *INGEST))
     assert "two categories are needed" in line

@@ -7,11 +7,13 @@ import re
 import shutil
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
@@ -52,13 +54,13 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     reports = json.loads(next((data / "07_model_output/mismatch_reports.json").rglob("*.json")).read_text())
     assert list(reports) == ["good/recording.csv"]
     assert reports["good/recording.csv"]["verdict"] == "explained"
-    overview = next((data / "07_model_output/mismatch_overview.csv").rglob("*.csv")).read_text()
-    assert "bad/recording.csv" in overview
+    overview = next((data / "07_model_output/mismatch_overview.json").rglob("part-*.parquet"))
+    assert list(pd.read_parquet(overview)["recording"]) == ["bad/recording.csv", "good/recording.csv"]
     whole = Path(data / "08_reporting/mismatch.html").read_text()
     assert 'href="mismatch/good/recording.html"' in whole
     assert "2 recordings: 1 " in whole
     assert "1 could not be used" in done.stdout
-    assert (data / "08_reporting/tables/mismatch_overview.csv").read_text() == overview
+    assert "bad/recording.csv" in (data / "08_reporting/tables/mismatch_overview.csv").read_text()
     assert "mismatch/good/recording.html" in (data / "08_reporting/index.html").read_text()
     place = data / "08_reporting/mismatch/good/recording.html"
     page = place.read_text()
@@ -97,7 +99,7 @@ def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(thi
     assert report["recordings"] == ["tire/one.csv", "tire/three.csv"]
     error = report["held_out"]["errors"]["fy"]
     assert 0.0 < error["rms_after"] < error["rms_before"]
-    assert overview["held_out"].tolist() == ["tire/two.csv"]
+    assert joined(overview)["held_out"].tolist() == ["tire/two.csv"]
     assert b"Tested on a held-out recording" in pages["tire/together.html"]()
 
 

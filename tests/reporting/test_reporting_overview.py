@@ -8,9 +8,11 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
-from tire_pipeline.datasets import TextFolderDataset
+from tire_pipeline.datasets import ReportPartsDataset, TextFolderDataset
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files import rows_on_disk
 from tire_pipeline.files.packed import pack
+from tire_pipeline.reporting.mismatch import mismatch_overview
 from tire_pipeline.reporting.mismatch.explain_task import corrected_files
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
@@ -22,14 +24,18 @@ from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.tir.sidecar import sidecar_path
 
 
-def found(recording: str, verdict: str, summary: str) -> pd.DataFrame:
+def found(recording: str, verdict: str, summary: str) -> list[pd.DataFrame]:
     row = {"recording": recording, "verdict": verdict, "summary": summary, "effects": "camber"}
-    return pd.DataFrame([{**row, "alternatives": "", "held_out": "", "problem": ""}])
+    return [pd.DataFrame([{**row, "alternatives": "", "held_out": "", "problem": ""}])]
+
+
+def noted(overview: list[pd.DataFrame]) -> dict[str, bytes]:
+    return {place: read() for place, read in rows_to_keep(overview).items()}
 
 
 def test_a_report_of_an_earlier_run_is_listed_with_what_it_says():
     before, now = found("a/one.csv", "explained", "Camber is missing."), found("two.csv", "agrees", "Same.")
-    rows = {**rows_to_keep(before), **rows_to_keep(now)}
+    rows = {**noted(before), **noted(now)}
     page, outcome = draw_overview(now, ["a/one.html", "two.html"], rows)
     assert "Reports of earlier runs" in page
     assert "Camber is missing." in page
@@ -40,7 +46,7 @@ def test_a_report_of_an_earlier_run_is_listed_with_what_it_says():
 
 def test_a_report_that_the_user_deleted_is_listed_no_longer():
     before, now = found("a/one.csv", "explained", "Camber is missing."), found("two.csv", "agrees", "Same.")
-    page, _ = draw_overview(now, ["two.html"], {**rows_to_keep(before), **rows_to_keep(now)})
+    page, _ = draw_overview(now, ["two.html"], {**noted(before), **noted(now)})
     assert "one.csv" not in page
 
 
@@ -51,7 +57,7 @@ def test_a_report_of_a_run_that_noted_nothing_is_linked():
 
 
 def test_a_recording_made_again_is_listed_once():
-    rows = rows_to_keep(found("two.csv", "explained", "Camber is missing."))
+    rows = noted(found("two.csv", "explained", "Camber is missing."))
     page, _ = draw_overview(found("two.csv", "agrees", "Same."), ["two.html"], rows)
     assert "Camber is missing." not in page
     assert page.count('href="mismatch/two.html"') == 1
@@ -68,7 +74,7 @@ def test_recordings_that_differ_by_their_format_alone_have_results_of_their_own(
     names = ["a/run.csv", "a/run.CSV", "a/run.mat", "a/run.tdx", "a/together", "run.csv"]
     assert len({result_place(name, ".html") for name in names}) == len(names)
     assert result_place("a/run.csv", ".html") == "a/run.html"
-    rows = rows_to_keep(pd.concat([found(name, "agrees", f"Of {name}.") for name in names]))
+    rows = noted([part for name in names for part in found(name, "agrees", f"Of {name}.")])
     pages = [result_place(name, ".html") for name in names]
     page, _ = draw_overview(found("new.csv", "agrees", "Same."), pages, rows)
     assert all(f"Of {name}." in page for name in names)
@@ -121,9 +127,45 @@ def test_every_recording_has_results_of_its_own_however_it_is_called(tmp_path, m
 
 def test_verdicts_are_counted_in_words():
     names = {"a.csv": "another tire", "b.csv": "another tire", "c.csv": "agrees"}
-    overview = pd.concat([found(name, verdict, "Said.") for name, verdict in names.items()])
+    overview = [part for name, verdict in names.items() for part in found(name, verdict, "Said.")]
     _, outcome = draw_overview(overview, [], {})
     assert outcome[0] == "3 recordings: 2 seem to be of another tire, 1 agrees."
+
+
+def test_of_many_recordings_the_first_and_of_earlier_reports_the_newest_are_listed(monkeypatch):
+    monkeypatch.setattr(mismatch_overview, "MOST_LISTED", 2)
+    now = [part for name in "abcde" for part in found(f"{name}.csv", "agrees", f"Of {name}.")]
+    rows, pages = noted(now), [f"{name}.html" for name in "abcde"]
+    for name, date in (("x", "2026-01-02 10:00"), ("y", "2026-01-03 10:00"), ("z", "2026-01-01 10:00")):
+        said = json.loads(noted(found(f"{name}.csv", "agrees", f"Of {name}."))[f"{name}.json"])
+        rows[f"{name}.json"] = json.dumps({**said, "run": date}).encode()
+        pages.append(f"{name}.html")
+    page, outcome = draw_overview(now, pages, rows)
+    assert outcome[0] == "5 recordings: 5 agree."
+    assert [name for name in "abcdexyz" if f'href="mismatch/{name}.html"' in page] == ["a", "b", "x", "y"]
+    assert "3 more are not listed here. All recordings of the last run are in the table (CSV) below." in page
+    assert "1 more is not listed here. The pages of all are in the folder mismatch" in page
+    assert page.index("mismatch/y.html") < page.index("mismatch/x.html")
+    assert "4 further rows are in the data file." in page
+
+
+def test_the_table_of_recordings_is_stored_in_parts_in_their_order(tmp_path, monkeypatch):
+    def task(name):
+        row = {"recording": name, "verdict": "agrees", "summary": f"=Of {name}."}
+        members = {"row.json": json.dumps(row).encode(), "report.json": b"{}", "page.html": b""}
+        return lambda: pack(members)
+
+    monkeypatch.setattr(rows_on_disk, "REPORT_ROWS", 2)
+    names = ["b.csv", "a.csv", "c.csv"]
+    _, overview, pages, _ = collect_explained({name: task(name) for name in names})
+    stored = ReportPartsDataset(filepath=str(tmp_path / "mismatch_overview.json"))
+    stored.save(overview)
+    parts = list(stored.load())
+    assert [len(part) for part in parts] == [2, 1]
+    assert [name for part in parts for name in part["recording"]] == names
+    page, outcome = draw_overview(parts, pages, noted(parts))
+    assert outcome[0] == "3 recordings: 3 agree."
+    assert "Reports of earlier runs" not in page.split("<h2>", 1)[1]
 
 
 def test_where_none_could_be_explained_each_problem_is_told_up_to_three():

@@ -53,7 +53,7 @@ def reports(tmp_path_factory):
     report.to_html(folder / "mismatch" / "rig" / "run.html", pages=above)
     row = {"recording": "rig/run.csv", "verdict": report.verdict, "summary": report.summary}
     row |= {"effects": "inflation_pressure", "alternatives": "", "held_out": "", "problem": ""}
-    overview, _ = draw_overview(pd.DataFrame([row]), ["rig/run.html"], {})
+    overview, _ = draw_overview([pd.DataFrame([row])], ["rig/run.html"], {})
     (folder / "mismatch.html").write_text(overview)
     scores, misses = (pd.read_csv(RESULTS / f"proof_{name}.csv") for name in ("scores", "misses"))
     details = {"sha256": "0", "explain_mismatch": {"n": 800}}

@@ -15,6 +15,8 @@ from typing import Any
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_now
 
+DELETED_TOGETHER = 1000
+"""So many objects S3 deletes at a time."""
 _WORDS_OF_CONFLICT = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
 
 
@@ -282,12 +284,29 @@ class Objects:
             return not found.get("Contents")
 
     def delete(self, names: Iterable[str]) -> None:
-        """Take objects away; those that are gone already do not matter."""
-        keys = [self._key(name) for name in names]
+        """Take objects away; those that are gone already do not matter.
+
+        Names are taken as they are: s3fs would take ``run[1].html`` or ``a*.tir`` for a pattern, and delete
+        what fits it. It would not tell either what the store refuses to delete.
+
+        Raises
+        ------
+        DomainError
+            The store has not deleted one of them.
+        """
+        keys = [{"Key": self._key(name).partition("/")[2]} for name in names]
+        bucket = self.root.partition("/")[0]
         check_now()
-        if keys:
+        for start in range(0, len(keys), DELETED_TOGETHER):
+            asked = {"Objects": keys[start : start + DELETED_TOGETHER], "Quiet": True}
             with contextlib.suppress(FileNotFoundError), self._plain_errors(""):
-                self._fs.rm(keys)
+                refused = self._fs.call_s3("delete_objects", Bucket=bucket, Delete=asked).get("Errors")
+                if refused:
+                    raise DomainError(
+                        f"the object store did not delete this ({refused[0]['Code']})",
+                        where=f"s3://{bucket}/{refused[0]['Key']}",
+                        todo="allow deleting below the address of the data, then run again",
+                    )
 
     @contextlib.contextmanager
     def _plain_errors(self, name: str, *, bucket_only: bool = False) -> Iterator[None]:

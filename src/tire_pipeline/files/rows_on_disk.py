@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
+import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -21,6 +24,11 @@ class RowsOnDisk:
     Parameters
     ----------
     columns : iterable of str
+
+    Raises
+    ------
+    OSError
+        The disk of temporary files is full, or none of their folders may be written.
     """
 
     def __init__(self, columns: Iterable[str]) -> None:
@@ -33,11 +41,27 @@ class RowsOnDisk:
 
     def add(self, rows: Iterable[Sequence[Any]]) -> None:
         """Append rows, their values in the order of the columns."""
-        self._database.executemany(self._insert, rows)
+        with _as_error_of_the_disk():
+            self._database.executemany(self._insert, rows)
 
     def do(self, statement: str, values: Sequence[Any] = ()) -> sqlite3.Cursor:
         """Do a statement of SQL; its result is read as it is found."""
-        return self._database.execute(statement, values)
+        with _as_error_of_the_disk():
+            return self._database.execute(statement, values)
+
+
+@contextlib.contextmanager
+def _as_error_of_the_disk() -> Iterator[None]:
+    """What SQLite says of the disk, as the system would say it."""
+    try:
+        yield
+    except sqlite3.OperationalError as error:
+        codes = {"SQLITE_FULL": errno.ENOSPC, "SQLITE_CANTOPEN": errno.EACCES}
+        number = codes.get(error.sqlite_errorname)
+        if number is None:
+            raise
+        where = os.environ.get("SQLITE_TMPDIR") or os.environ.get("TMPDIR") or "/var/tmp"
+        raise OSError(number, os.strerror(number), f"{where} (temporary files, TMPDIR)") from error
 
 
 @dataclass(frozen=True)

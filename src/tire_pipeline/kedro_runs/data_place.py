@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import glob
 from pathlib import Path
 from typing import Any
 
+from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects, is_remote
 
 
@@ -14,6 +16,18 @@ def data_place(context: Any) -> Path | Objects:
     Parameters
     ----------
     context : kedro.framework.context.KedroContext
+
+    Raises
+    ------
+    DomainError
+        Its name reads as a pattern: the versions in it would never be found again.
     """
     data = context.config_loader["globals"].get("data", "data")
-    return Objects(str(data)) if is_remote(data) else Path(context.project_path) / data
+    place = Objects(str(data)) if is_remote(data) else Path(context.project_path) / data
+    if glob.has_magic(str(place)):
+        raise DomainError(
+            "the path of the data folder holds *, ? or [, which reads as a pattern for other names",
+            where=str(place),
+            todo="rename that folder, or set another `data` in conf/local/globals.yml",
+        )
+    return place

@@ -52,7 +52,8 @@ def one_line(error: BaseException) -> str | None:
             text = f"{where}{_ADVICE[each.errno]}"
             break
         if isinstance(each, MissingConfigException):
-            text = f"{each} -> run it in the project's folder; correct --env or --conf-source if you gave one"
+            todo = "run it in the project's folder, whose path must not hold *, ? or ["
+            text = f"{each} -> {todo}; correct --env or --conf-source if you gave one"
             break
         if isinstance(each, ParameterValidationError):
             text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"

@@ -61,6 +61,8 @@ class Table:
         A column holds quantities of different kinds, such as coefficients: each number has its own digits.
     most_rows : int
         Further rows are counted, not shown.
+    further : int
+        Rows that are not in the frame, to be counted with those.
     below : str
         A column of long texts, each shown below its row, over the whole width.
     """
@@ -72,6 +74,7 @@ class Table:
     decimals: int | None = None
     unlike: bool = False
     most_rows: int = 200
+    further: int = 0
     below: str = ""
     kind: str = field(default="table", init=False)
 
@@ -115,7 +118,7 @@ class Table:
     @property
     def left_out(self) -> int:
         """How many rows are not shown."""
-        return max(0, len(self.frame) - self.most_rows)
+        return max(0, len(self.frame) - self.most_rows) + self.further
 
 
 @dataclass(frozen=True)

@@ -76,9 +76,10 @@ class ObjectTicket:
         Raises
         ------
         LostTicketError
-            Another run has taken the data folder over.
+            Another run has taken the data folder over; maybe so long ago that nothing of this ticket is left.
         """
-        if self.data.exists(_name(self.note.number, "over")):
+        own = self.note.number
+        if self.data.exists(_name(own, "over")) or not self.data.exists(_name(own, "json")):
             raise LostTicketError(
                 f"another run has taken this data folder over, as this one (number {self.note.number}) "
                 "showed no sign of life",

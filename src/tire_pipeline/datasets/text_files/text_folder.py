@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
@@ -97,13 +99,14 @@ class TextFolderDataset(DatasetAtPath[Mapping[str, Content | None], Mapping[str,
         with replaced_folder(folder) as temporary:
             made = _NamesOnDisk()
             if keep and folder.exists():
-                shutil.copytree(folder, temporary, dirs_exist_ok=True)
+                shutil.copytree(folder, temporary, copy_function=_linked, dirs_exist_ok=True)
                 made.add_all(_names_of_marker(folder))
             for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
                 _write_or_remove(temporary, str(inside(name)), text, made, keep=keep)
             for name in NEVER_DELETED:
-                if (folder / name).exists():
+                if (folder / name).exists() and not (temporary / name).exists():
                     shutil.copy2(folder / name, temporary / name)
+            (temporary / MARKER).unlink(missing_ok=True)
             with (temporary / MARKER).open("w", encoding="utf-8", newline="\n") as marker:
                 marker.write(f"{MARKER_HEAD}\n")
                 marker.writelines(f"{name}\n" for name in made)
@@ -129,6 +132,15 @@ def _names_of_marker(folder: Path) -> Iterator[str]:
             yield from (line.removesuffix("\n") for line in lines)
 
 
+def _linked(source: str, target: str) -> None:
+    """Put a file of an earlier run at another place, too; a copy where the file system has no hard links."""
+    if not os.path.islink(source):
+        with contextlib.suppress(OSError):
+            os.link(source, target)
+            return
+    shutil.copy2(source, target)
+
+
 def _write_or_remove(
     folder: Path, name: str, text: Content | None, made: _NamesOnDisk, *, keep: bool
 ) -> None:
@@ -136,6 +148,7 @@ def _write_or_remove(
     target = folder / name
     if text is not None:
         target.parent.mkdir(parents=True, exist_ok=True)
+        target.unlink(missing_ok=True)  # never into the file of the old folder, which this one may be
         target.write_bytes(as_bytes(text))
         made.add_all([name])
         return

@@ -135,8 +135,8 @@ def _marker_text(head: str, made: Mapping[str, str]) -> bytes:
 def _marker(folder: Objects) -> tuple[bool, dict[str, str]]:
     """Whether the last write was not finished; name -> SHA-256 of what it made."""
     try:
-        head, *lines = folder.read(MARKER).decode("utf-8", errors="replace").splitlines()
+        head, *lines = folder.read(MARKER).decode("utf-8", errors="replace").split("\n")
     except FileNotFoundError:
         return False, {}
-    parted = (line.partition("\t") for line in lines)
+    parted = (line.partition("\t") for line in lines if line)  # not splitlines: a name may hold U+2028
     return head == _BROKEN, {name: digest for name, _, digest in parted}

@@ -10,6 +10,7 @@ from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.retraining.release.model import CategoryModel
 from tire_pipeline.retraining.release.record import (
@@ -70,6 +71,8 @@ class ReleaseDataset(DatasetAtPath[ModelRegistry, ModelRegistry]):
         except FileNotFoundError as error:
             todo = self._what_is_left_to_do(release)
             raise DomainError("the file of the model in use is missing", where=path, todo=todo) from error
+        except UnreachableError:  # that says nothing about the model: going back is no help
+            raise
         except DomainError as error:
             what = f"{error.what} (the one in use); it is not loaded"
             raise DomainError(what, where=path, todo=self._what_is_left_to_do(release)) from error
@@ -90,6 +93,8 @@ class ReleaseDataset(DatasetAtPath[ModelRegistry, ModelRegistry]):
                 unpack_state(self._files.read(_model(name)), where=path)
             except OSError as error:
                 found[name] = f"gone ({path}: {error.strerror})"
+            except UnreachableError:
+                raise
             except DomainError:
                 found[name] = f"damaged ({path})"
         return found

@@ -10,13 +10,13 @@ from functools import partial
 from pathlib import PurePosixPath
 from typing import Any, Literal
 
-import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.files.packed import member, unpack
 from tire_pipeline.files.read_later import Read
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
@@ -144,7 +144,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 
 def collect_explained(
     explained: Mapping[str, Read],
-) -> tuple[ReportsByName, pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
+) -> tuple[ReportsByName, FramesOfRows, dict[str, Read], dict[str, Read | None]]:
     """Collect what was found in each recording.
 
     Parameters
@@ -156,8 +156,9 @@ def collect_explained(
     -------
     reports : mapping
         ``MismatchReport.to_dict()`` by recording, or ``folder/together``; read when it is asked for.
-    overview : DataFrame
-        ``recording, verdict, summary, effects, alternatives, held_out, problem``.
+    overview : iterable of DataFrame
+        ``recording, verdict, summary, effects, alternatives, held_out, problem``; read from the disk some
+        thousand rows at a time.
     pages : dict
         One HTML page a report, by the function that reads it: they are never in memory together.
     corrected : dict
@@ -170,12 +171,12 @@ def collect_explained(
     RecordingError
         If not one recording could be explained.
     """
-    reports, rows = ReportsByName(), list[dict[str, str]]()
+    reports, rows = ReportsByName(), RowsOnDisk(COLUMNS)
     pages, corrected = dict[str, Read](), dict[str, Read | None]()
     for read in track(explained.values(), "collecting reports", total=len(explained)):
         members = unpack(read())
         row, report = json.loads(members.pop("row.json")), members.pop(_REPORT)
-        rows.append(row)
+        rows.add([tuple(row.get(name, "") for name in COLUMNS)])
         if json.loads(report) is None:
             continue
         reports.read[row["recording"]] = read
@@ -184,7 +185,8 @@ def collect_explained(
         corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
     _check_any(reports, rows)
-    return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
+    overview = FramesOfRows(rows, "select * from rows order by rowid", dict.fromkeys(COLUMNS, "str"))
+    return reports, overview, pages, corrected
 
 
 @dataclass(frozen=True)
@@ -211,12 +213,14 @@ class ReportsByName(Mapping[str, Any]):
         return len(self.read)
 
 
-def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
+def _check_any(reports: Mapping[str, Any], rows: RowsOnDisk) -> None:
     if not reports:
-        told = [f"{row['recording']}: {row['problem']}" for row in rows[:_MOST_TOLD]]
-        more = [f"and {len(rows) - len(told)} more"] if len(rows) > len(told) else []
+        (count,) = rows.do("select count(*) from rows").fetchone()
+        first = rows.do(f"select recording, problem from rows order by rowid limit {_MOST_TOLD}")
+        told = [f"{recording}: {problem}" for recording, problem in first]
+        more = [f"and {count - len(told)} more"] if count > len(told) else []
         raise RecordingError(
-            f"none of {len(rows)} recordings could be explained; {'; '.join(told + more)}",
+            f"none of {count} recordings could be explained; {'; '.join(told + more)}",
             todo="correct that, then run again",
         )
 

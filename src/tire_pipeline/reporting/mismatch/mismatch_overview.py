@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import datetime
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
 
 import pandas as pd
 
+from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Part, Table, Text, render_page
 from tire_pipeline.reporting.mismatch.result_names import result_place
@@ -31,39 +34,71 @@ _NO_ROW = "Open it to see what was found."
 _ALTERNATIVES = " Alternatives: what the recording cannot distinguish from them."
 _FEW_RECORDINGS = 5
 """Up to this many recordings, a run says what was found in each."""
+MOST_LISTED = 5_000
+"""So many recordings of the last run the page lists, and so many reports of earlier runs."""
 _CSV = ("tables/mismatch_overview.csv", "Table of the last run (CSV)", "with every recording's summary")
 
 
-def rows_to_keep(overview: pd.DataFrame) -> dict[str, str]:
+def rows_to_keep(overview: Iterable[pd.DataFrame]) -> NotedRows:
     """Note what each report of a run says, for the overview of later runs.
 
     Parameters
     ----------
-    overview : DataFrame
+    overview : iterable of DataFrame
         As :func:`draw_overview` takes it.
 
     Returns
     -------
-    dict of str to str
+    NotedRows
         JSON by path: the report's path with another ending. ``run`` is the time of the run.
     """
     now = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
-    return {
-        result_place(row["recording"], ".json"): json.dumps({**row, "run": now})
-        for row in _texts(overview)
-        if row["verdict"]
-    }
+    said = (row for row in _texts(overview) if row["verdict"])
+    return NotedRows(
+        (result_place(row["recording"], ".json"), json.dumps({**row, "run": now})) for row in said
+    )
 
 
-def draw_overview(
-    overview: pd.DataFrame, pages: Iterable[str], rows: Mapping[str, bytes | str]
-) -> tuple[str, list[str]]:
-    """Sum up all recordings that have a report on one page.
+class NotedRows(Mapping[str, Callable[[], bytes]]):
+    """What reports say, by path; names and texts are on the disk.
 
     Parameters
     ----------
-    overview : DataFrame
-        ``recording, verdict, summary, effects, alternatives, held_out, problem`` of the last run.
+    noted : iterable of (str, str)
+        Path and text.
+    """
+
+    def __init__(self, noted: Iterable[tuple[str, str]]) -> None:
+        self._rows = RowsOnDisk(["place", "text"])
+        self._rows.do("create unique index by_place on rows (place)")
+        self._rows.add(noted)
+
+    def __getitem__(self, place: str) -> Callable[[], bytes]:
+        """The function that reads a text."""
+        found = self._rows.do("select text from rows where place = ?", (place,)).fetchone()
+        if found is None:
+            raise KeyError(place)
+        return partial(str.encode, found[0])
+
+    def __iter__(self) -> Iterator[str]:
+        """Paths, sorted."""
+        return (place for (place,) in self._rows.do("select place from rows order by place"))
+
+    def __len__(self) -> int:
+        return int(self._rows.do("select count(*) from rows").fetchone()[0])
+
+
+def draw_overview(
+    overview: Iterable[pd.DataFrame], pages: Iterable[str], rows: Mapping[str, bytes | str]
+) -> tuple[str, list[str]]:
+    """Sum up all recordings that have a report on one page.
+
+    Only what the page lists is in memory.
+
+    Parameters
+    ----------
+    overview : iterable of DataFrame
+        ``recording, verdict, summary, effects, alternatives, held_out, problem`` of the last run, in parts.
     pages : iterable of str
         Paths of the recordings' pages that are there, those of earlier runs among them.
     rows : mapping
@@ -76,43 +111,74 @@ def draw_overview(
     outcome : list of str
         The last lines of a run.
     """
-    last = [
-        {**row, "run": "last", "page": result_place(row["recording"], ".html") if row["verdict"] else ""}
-        for row in _texts(overview)
-    ]
-    earlier = _earlier(last, pages, rows)
-    outcome = [_counted(overview)]
-    if len(last) <= _FEW_RECORDINGS:
-        outcome += [f"{row['recording']}: {_said(row)}" for row in last]
+    last = _last_run(overview)
+    earlier = _earlier(last.rows, pages, rows)
+    outcome = [_counted(last.rows)]
+    if last.count <= _FEW_RECORDINGS:
+        outcome += [f"{row['recording']}: {_said(row)}" for row in last.first]
     parts: list[Part] = [
         Text(outcome[:1], emphasis=True),
         Text([_EARLIER_REPORTS]),
-        Links([_link(row) for row in last], heading="Recordings of the last run"),
+        Links([_link(row) for row in last.first], heading="Recordings of the last run"),
+        *last.more("All recordings of the last run are in the table (CSV) below."),
     ]
-    if earlier:
-        parts.append(Links([_link(row) for row in earlier], heading="Reports of earlier runs"))
-    parts += [
-        _in_one_table([*last, *earlier]),
-        Links([_CSV]),
-    ]
+    if earlier.count:
+        parts.append(Links([_link(row) for row in earlier.first], heading="Reports of earlier runs"))
+        parts += earlier.more("The pages of all are in the folder mismatch beside this page.")
+    parts += [_in_one_table(last, earlier), Links([_CSV])]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 
 
-def _texts(overview: pd.DataFrame) -> list[dict[str, str]]:
-    return overview.astype(object).fillna("").astype(str).to_dict("records")
+@dataclass(frozen=True)
+class _ListedReports:
+    """Rows on the disk, and those of them that the page lists."""
+
+    rows: RowsOnDisk
+    order: str
+
+    @cached_property
+    def count(self) -> int:
+        return int(self.rows.do("select count(*) from rows").fetchone()[0])
+
+    @cached_property
+    def first(self) -> list[dict[str, str]]:
+        query = f"select text from rows order by {self.order} limit {MOST_LISTED}"
+        return [json.loads(text) for (text,) in self.rows.do(query)]
+
+    def more(self, where: str) -> list[Part]:
+        """What is said of those that are not listed."""
+        left = self.count - len(self.first)
+        are = "is" if left == 1 else "are"
+        return [Text([f"{left:,} more {are} not listed here. {where}"])] if left else []
 
 
-def _earlier(
-    last: list[dict[str, str]], pages: Iterable[str], rows: Mapping[str, bytes | str]
-) -> list[dict[str, str]]:
+def _texts(overview: Iterable[pd.DataFrame]) -> Iterator[dict[str, str]]:
+    for frame in overview:
+        yield from frame.astype(object).fillna("").astype(str).to_dict("records")
+
+
+def _last_run(overview: Iterable[pd.DataFrame]) -> _ListedReports:
+    """What the last run found, in its order."""
+    rows = RowsOnDisk(["page", "verdict", "text"])
+    for row in _texts(overview):
+        page = result_place(row["recording"], ".html") if row["verdict"] else ""
+        rows.add([(page, row["verdict"], json.dumps({**row, "run": "last", "page": page}))])
+    rows.do("create index by_page on rows (page)")
+    return _ListedReports(rows, "rowid")
+
+
+def _earlier(last: RowsOnDisk, pages: Iterable[str], rows: Mapping[str, bytes | str]) -> _ListedReports:
     """What the pages say that the last run has not made, the newest first."""
-    found = []
-    for page in sorted(set(pages) - {row["page"] for row in last}):
+    found = RowsOnDisk(["page", "date", "text"])
+    for page in pages:
+        if last.do("select 1 from rows where page = ?", (page,)).fetchone():
+            continue
         unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
         kept = rows.get(f"{page.removesuffix('.html')}.json")
         row = unknown if kept is None else json.loads(kept)
-        found.append({**dict.fromkeys(_HEADS, ""), **row, "page": page})
-    return sorted(found, key=_date, reverse=True)
+        row = {**dict.fromkeys(_HEADS, ""), **row, "page": page}
+        found.add([(page, _date(row), json.dumps(row))])
+    return _ListedReports(found, "date desc, page")
 
 
 def _link(row: Mapping[str, str]) -> tuple[str, str, str]:
@@ -130,15 +196,15 @@ def _said(row: Mapping[str, str]) -> str:
     return row["summary"] or row["problem"]
 
 
-def _counted(overview: pd.DataFrame) -> str:
-    verdicts = overview["verdict"].fillna("").astype(str)
-    counts = verdicts[verdicts != ""].value_counts()
-    said = [f"{count} {_as_verb(str(verdict), count)}" for verdict, count in counts.items()]
-    failed = int((verdicts == "").sum())
+def _counted(last: RowsOnDisk) -> str:
+    found = last.do("select verdict, count(*) from rows group by verdict order by count(*) desc, min(rowid)")
+    counts = dict(found.fetchall())
+    failed, total = counts.pop("", 0), sum(counts.values())
+    said = [f"{count:,} {_as_verb(verdict, count)}" for verdict, count in counts.items()]
     if failed:
-        said.append(f"{failed} could not be used")
-    recordings = "recording" if len(verdicts) == 1 else "recordings"
-    return f"{len(verdicts)} {recordings}: {', '.join(said)}."
+        said.append(f"{failed:,} could not be used")
+    recordings = "recording" if total + failed == 1 else "recordings"
+    return f"{total + failed:,} {recordings}: {', '.join(said)}."
 
 
 def _as_verb(verdict: str, count: int) -> str:
@@ -151,7 +217,8 @@ def _as_verb(verdict: str, count: int) -> str:
     return verbs.get(verdict, verdict)
 
 
-def _in_one_table(rows: list[dict[str, str]]) -> Table:
+def _in_one_table(last: _ListedReports, earlier: _ListedReports) -> Table:
+    rows = [*last.first, *earlier.first]
     table = without_empty_columns(pd.DataFrame(rows, columns=list(_HEADS)), _ALWAYS_SHOWN)
     table = table.assign(
         **{name: table[name].map(in_words) for name in ("effects", "alternatives") if name in table}
@@ -162,4 +229,5 @@ def _in_one_table(rows: list[dict[str, str]]) -> Table:
         f"the recording.{_ALTERNATIVES if 'alternatives' in table else ''}",
         heading="In one table",
         most_rows=1000,
+        further=last.count + earlier.count - len(rows),
     )
