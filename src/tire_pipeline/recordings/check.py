@@ -332,12 +332,8 @@ def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarr
     large = size(load)
     sizes = {name: size(force) for name, force in forces.items()}
     name = max(sizes, key=lambda n: sizes[n], default="")
-    if (
-        not name
-        or not large > 0.0
-        or sizes[name] <= FORCE_OVER_LOAD[1] * large
-        or not plausible("normal_load", large)
-    ):
+    usual = not name or not large > 0.0 or sizes[name] <= FORCE_OVER_LOAD[1] * large
+    if usual or not plausible("normal_load", large):
         return []
     where = f"{name}, up to {in_digits(sizes[name])} N at a normal_load of up to {in_digits(large)} N"
     units = likely_load_units(frame, large, sizes[name])

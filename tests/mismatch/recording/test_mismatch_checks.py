@@ -219,4 +219,4 @@ def test_gaps_and_missing_blocks_are_said(tire, record):
     recording.loc[recording["time"].between(72.0, 80.0), "fy"] = np.nan
     notes = prepare(tire, recording).notes
     assert any("gap" in note for note in notes)
-    assert any("no number" in note for note in notes)
+    assert any("without a number" in note for note in notes)
