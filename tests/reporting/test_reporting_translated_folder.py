@@ -31,7 +31,7 @@ def outcome(**parameters):
 
 def test_the_users_own_files_come_first():
     assert outcome()[:2] == [
-        "Your own 1 file: 1 translated to D, 0 refused.",
+        "Your own file: 1 translated to D, 0 refused.",
         "The demonstration fleet's 2 files: 1 translated to D, 1 refused.",
     ]
 
@@ -65,7 +65,7 @@ def test_where_no_file_was_refused_no_reason_is_given():
 
 def test_files_that_were_asked_for_are_not_called_all():
     own, demonstration, asked = outcome(only=["A", "mine"])[:3]
-    assert "1 file asked for" in own
+    assert "Your own file asked for" in own
     assert "2 files asked for" in demonstration
     assert "only A, mine" in asked
     assert "shows these files only" in asked

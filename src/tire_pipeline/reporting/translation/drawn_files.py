@@ -129,10 +129,12 @@ def _stiffness(curves: Mapping[str, Any], i: int) -> list[list[float | None]]:
 
 
 def _moved(rows: pd.DataFrame) -> list[list[Any]]:
-    return [
+    """Return the coefficients that moved by what is shown of them, with both values."""
+    pairs = [
         [name, *(_digits(value) if np.isfinite(value) else None for value in pair)]
         for name, *pair in rows[["coefficient", "from", "to"]].itertuples(index=False)
     ]
+    return [[name, before, after] for name, before, after in pairs if before != after]
 
 
 def _digits(value: float) -> float:

@@ -90,8 +90,8 @@ def _outcome(rows: RowsOnDisk, target: str, parameters: TranslateParameters) -> 
     for own, whose in ((True, "Your own"), (False, "The demonstration fleet's")):
         (count,) = rows.do("select count(*) from rows where own = ?", (own,)).fetchone()
         if count:
-            files = f"{how_many(count, 'file')}{' asked for' if asked else ''}"
-            lines.append(f"{whose} {files}: {_counted(rows, own, target)}.")
+            files = how_many(count, "file") if count > 1 else "file"
+            lines.append(f"{whose} {files}{' asked for' if asked else ''}: {_counted(rows, own, target)}.")
     if asked:
         lines.append(
             f"This run was restricted: {asked}. This page shows these files only. Other files that earlier "
