@@ -22,7 +22,7 @@ from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed.scoring.calibration import calibration_error
 from tire_pipeline.errors import TirePipelineError
-from tire_pipeline.files.read_later import FilesToMake, StoredFiles
+from tire_pipeline.files.read_later import FilesToMake, Read, StoredFiles
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learn_sizes import (
     Learnt,
@@ -108,7 +108,7 @@ def weigh_cases(reduced_cases: StoredFiles, parameters: CalibrateMismatchParamet
 class _WeighedCase:
     """The evidence of one case, when it is asked for."""
 
-    def __init__(self, read: Callable[[], bytes], step: float) -> None:
+    def __init__(self, read: Read, step: float) -> None:
         self.read, self.step = read, step
 
     def __call__(self) -> bytes:

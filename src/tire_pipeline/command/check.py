@@ -102,7 +102,7 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue]) -> CommandO
 
 
 def _count(number: int, what: str) -> str:
-    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
+    return how_many(number, what) if number else f"no {what}s"
 
 
 def _size(recording: pd.DataFrame) -> str:

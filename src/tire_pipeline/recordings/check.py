@@ -22,6 +22,7 @@ from tire_pipeline.recordings.conventions.plausible import (
     size,
 )
 from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
+from tire_pipeline.recordings.stretches import stretches
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -392,6 +393,4 @@ def _numbers(frame: pd.DataFrame, column: str) -> np.ndarray:
 
 def _runs(mask: np.ndarray, most: int | None = 20) -> tuple[tuple[int, int], ...]:
     """First and last index of each run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(np.int8), [0]])))
-    pairs = list(zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True))
-    return tuple(pairs[:most])
+    return tuple((first, after - 1) for first, after in stretches(mask)[:most].tolist())

@@ -18,22 +18,32 @@ def test_combined_slip_is_looked_for_in_brake_sweeps(braked, angles, missing):
     assert catalogue()["combined_slip"].absent(data) is None
 
 
-@pytest.mark.parametrize("factor", [0.8, pytest.param(1.25, marks=pytest.mark.long)])
-def test_less_friction_by_the_files_own_factors_has_its_name_at_combined_slip(braked, factor):
-    """Other programs change LMUX and LMUY, and keep the weights of combined slip: a stiffness was named."""
-    file = weighted(braked)
-    report = explain_mismatch(file, brake_sweeps(file.replace(LMUX=factor, LMUY=factor), (-3.0, 0.0, 5.0)))
-    assert [effect.name for effect in report.effects] == ["friction_scale"]
-    assert report.effects[0].parameters["friction"][0] == pytest.approx(factor - 1.0, abs=0.02)
+BY_FILE = {
+    "friction_scale": ("friction", ("LMUX", "LMUY")),
+    "stiffness_scale": ("stiffness", ("LKX", "LKY")),
+}
 
 
-@pytest.mark.parametrize("factor", [0.88, pytest.param(1.15, marks=pytest.mark.long)])
-def test_another_stiffness_by_the_files_own_factors_has_its_name_at_combined_slip(braked, factor):
-    """A friction level with a gain of the load was named: LKX and LKY keep the weights of combined slip."""
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        ("friction_scale", 0.8),
+        pytest.param("friction_scale", 1.25, marks=pytest.mark.long),
+        ("stiffness_scale", 0.88),
+        pytest.param("stiffness_scale", 1.15, marks=pytest.mark.long),
+    ],
+)
+def test_a_change_by_the_files_own_factors_has_its_name_at_combined_slip(braked, name, factor):
+    """Other programs change these factors, and keep the weights of combined slip.
+
+    Less friction was called a stiffness, and less stiffness a friction level with a gain of the load.
+    """
+    parameter, factors = BY_FILE[name]
     file = weighted(braked)
-    report = explain_mismatch(file, brake_sweeps(file.replace(LKX=factor, LKY=factor), (-3.0, 0.0, 5.0)))
-    assert [effect.name for effect in report.effects] == ["stiffness_scale"]
-    assert report.effects[0].parameters["stiffness"][0] == pytest.approx(factor - 1.0, abs=0.02)
+    changed = file.replace(**dict.fromkeys(factors, factor))
+    report = explain_mismatch(file, brake_sweeps(changed, (-3.0, 0.0, 5.0)))
+    assert [effect.name for effect in report.effects] == [name]
+    assert report.effects[0].parameters[parameter][0] == pytest.approx(factor - 1.0, abs=0.02)
 
 
 @pytest.mark.parametrize("drift", [150.0, pytest.param(-150.0, marks=pytest.mark.long)])

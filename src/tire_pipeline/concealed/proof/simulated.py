@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import PurePosixPath
 from typing import Any, Literal
@@ -16,7 +16,7 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
 from tire_pipeline.concealed.proof import case_files as files
 from tire_pipeline.concealed.real.parameters import RealParameters
-from tire_pipeline.files.read_later import StoredFiles
+from tire_pipeline.files.read_later import FilesToMake, Read, StoredFiles
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Labelled
@@ -49,7 +49,7 @@ class ProveConcealedParameters(Parameters):
     real: RealParameters = RealParameters()
 
 
-def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
+def cases_to_make(parameters: ProveConcealedParameters) -> FilesToMake:
     """Make the cases; those that exist already are not made again."""
     code = code_hash("concealed", "magic_formula")
     return {
@@ -60,13 +60,13 @@ def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[]
 
 def part_cases(
     made: StoredFiles, form: type[Answer] = Answer
-) -> tuple[dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]], dict[str, Any]]:
+) -> tuple[FilesToMake, FilesToMake, dict[str, Any]]:
     """Separate what is shown, what is held out, and the answers, which are sealed by a hash.
 
     The names of the shown files are numbers only: the kind of a case does not reach who explains it.
     """
-    shown: dict[str, Callable[[], bytes]] = {}
-    held_out: dict[str, Callable[[], bytes]] = {}
+    shown: FilesToMake = {}
+    held_out: FilesToMake = {}
     answers: list[Answer] = []
     for name, read in track(made.items(), "sealing the answers", total=len(made)):
         code, rest = name.split("/")
@@ -78,7 +78,7 @@ def part_cases(
     return shown, held_out, {"sha256": sha256, "answers": data.decode()}
 
 
-def explain_cases(shown: StoredFiles) -> dict[str, Callable[[], bytes]]:
+def explain_cases(shown: StoredFiles) -> FilesToMake:
     """Explain every case; neither answers nor held-out forces are available here."""
     code = code_hash("mismatch", "magic_formula", "tir")
     return {
@@ -92,14 +92,12 @@ def _case(name: str) -> str:
     return f"case {PurePosixPath(name).stem.lstrip('0')}"
 
 
-def explain_by_baselines(
-    shown: StoredFiles, parameters: ProveConcealedParameters
-) -> dict[str, Callable[[], bytes]]:
+def explain_by_baselines(shown: StoredFiles, parameters: ProveConcealedParameters) -> FilesToMake:
     """The same cases by the baselines."""
     return explained_by(shown, parameters.baselines)
 
 
-def explained_by(shown: StoredFiles, methods: Sequence[str]) -> dict[str, Callable[[], bytes]]:
+def explained_by(shown: StoredFiles, methods: Sequence[str]) -> FilesToMake:
     """Say how each case is explained by each of these baselines."""
     code = code_hash("concealed/baselines", "magic_formula", "tir")
     return {
@@ -152,7 +150,7 @@ def answers_of(
 ) -> Iterator[tuple[str, tuple[dict[str, Any], dict[str, Any]]]]:
     """Yield each method with its reports and its held-out errors by case."""
     truth = {files.unpack(read())["case_id"].decode(): read for read in held_out.values()}
-    methods: dict[str, dict[str, Callable[[], bytes]]] = {METHOD: dict(explained)}
+    methods: dict[str, FilesToMake] = {METHOD: dict(explained)}
     for name, read in by_baselines.items():
         methods.setdefault(name.split("/")[1], {})[name] = read
     for method, folder in methods.items():
@@ -165,7 +163,7 @@ def answers_of(
         yield method, (reports, errors)
 
 
-def _errors(content: dict[str, bytes], read: Callable[[], bytes]) -> dict[str, dict[str, float]]:
+def _errors(content: dict[str, bytes], read: Read) -> dict[str, dict[str, float]]:
     """Held-out errors before and after, of a prediction that was made without seeing them."""
     sealed = files.unpack(read())
     held_out = pd.read_parquet(io.BytesIO(sealed["held_out.parquet"]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numba import njit
 
@@ -160,6 +162,27 @@ def relaxation_lengths(tire: TireModel) -> dict[str, float]:
         normal_load=c["FNOMIN"], limits="ignore", outputs=tuple(outputs.values())
     )
     return {slip: float(getattr(found, output)) for slip, output in outputs.items()}
+
+
+def lengths_in_words(lengths: Mapping[str, float]) -> str:
+    """Return relaxation lengths, m, with their slips.
+
+    Examples
+    --------
+    >>> lengths_in_words({"slip_angle": 0.6512, "slip_ratio": 0.32})
+    '0.65 m of slip_angle and 0.32 m of slip_ratio'
+    """
+    return " and ".join(f"{length:.2g} m of {slip}" for slip, length in lengths.items())
+
+
+def scaled(coefficients: Mapping[str, float], factors: Mapping[str, float]) -> dict[str, float]:
+    """Return scale factors of a file (LMUX, LKY ...), each times its factor."""
+    return {name: coefficients.get(name, 1.0) * factor for name, factor in factors.items()}
+
+
+def in_both_forms(zero: Mapping[str, float], form: str) -> list[dict[str, float]]:
+    """Return where a search starts if an effect has two forms: ``form`` is 0 or 1."""
+    return [{**zero, form: value} for value in (0.0, 1.0)]
 
 
 def own_relaxation(tire: TireModel) -> dict[str, float] | None:

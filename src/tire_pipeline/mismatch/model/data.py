@@ -118,6 +118,12 @@ class Data:
         known = self.nominal.reference.measured
         return self.present if known is None else known
 
+    @property
+    def followed_relaxation(self) -> dict[str, float]:
+        """Relaxation lengths of the file by which the slips that vary are lagged, m."""
+        own = self.simulation.own_relaxation or {}
+        return {slip: length for slip, length in own.items() if self.varies(slip)}
+
     def stated_prior(self, effect: str, parameter: str) -> float | None:
         """Return the standard deviation that a user states for a parameter's prior, in its unit."""
         stated = self.choices.priors.get(effect, {}).get(parameter)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.effects.shared import own_relaxation
+from tire_pipeline.mismatch.effects.shared import lengths_in_words, own_relaxation
 from tire_pipeline.mismatch.model.channels import RecordedChannels, largest
 from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
 from tire_pipeline.mismatch.model.residual import residual
@@ -40,6 +41,7 @@ from tire_pipeline.recordings.check import (
     LONGEST_HOLE,
 )
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
+from tire_pipeline.recordings.stretches import stretches
 
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
@@ -213,10 +215,10 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         start=start,
         present=present,
     )
-    lagged, at_once = (
-        Data.of(tire, recorded, beside=beside, own_relaxation=r, choices=choices) for r in (own, None)
-    )
-    data = _better_followed(lagged, at_once, notes) if own else at_once
+    with_relaxation = partial(Data.of, tire, recorded, beside=beside, choices=choices)
+    data = with_relaxation(own_relaxation=None)
+    if own:
+        data = _better_followed(with_relaxation(own_relaxation=own), data, notes)
     left_out = {n: gone for n, gone in out.items() if gone.size}
     recording, questions = without_values(recording, left_out), [q for q in asked if q]
     return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
@@ -294,9 +296,8 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         missing = ~np.isfinite(x)
         if not missing.any() or missing.all():
             continue
-        edges = np.flatnonzero(np.diff(np.r_[0, missing.astype(np.int8), 0]))
         known = np.flatnonzero(~missing)
-        for first, last in zip(edges[::2], edges[1::2], strict=True):
+        for first, last in stretches(missing):
             if last - first <= LONGEST_HOLE and first > 0 and last < x.size:
                 filled[first:last] = True
         holes = np.flatnonzero(filled & missing)
@@ -364,7 +365,6 @@ def _better_followed(lagged: Data, at_once: Data, notes: list[str]) -> Data:
     if left[0] < left[1]:
         return lagged
     if left[0] > left[1]:
-        stated = {s: x for s, x in (lagged.simulation.own_relaxation or {}).items() if lagged.varies(s)}
-        lengths = ", ".join(f"{length:.2g} m of {slip}" for slip, length in stated.items())
+        lengths = lengths_in_words(lagged.followed_relaxation)
         notes.append(f"the forces follow slip without the relaxation that the file states ({lengths})")
     return at_once

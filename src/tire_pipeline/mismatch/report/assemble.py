@@ -20,7 +20,6 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
-from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
@@ -31,7 +30,7 @@ from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
-from tire_pipeline.mismatch.report.contents import EffectReport, Head
+from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
 from tire_pipeline.mismatch.report.headline.sentences import head, on_question, with_own_lag
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
@@ -116,7 +115,7 @@ def assembled(it: Explained) -> MismatchReport:
     rivals = [each.names for each in answer.rivals] or answer.beside_unnamed
     added = bool(put_in.names or prepared.findings or not effects)
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
-    told = _beside_own_lag(told, fit, data, before).beside(
+    told = with_own_lag(told, fit, data.followed_relaxation, before).beside(
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
         on_several(effects if model.instead else []),
@@ -181,16 +180,6 @@ def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
     """Return effects that physics expects in this recording and that no set of names contains."""
     said = {name for effect in effects for name in (effect.name, *effect.alternatives)}
     return sorted(it.sets.likelihood.unknown.expected - said)
-
-
-def _beside_own_lag(
-    told: Head, fit: Mapping[str, OutputFit], data: Data, before: Mapping[str, np.ndarray]
-) -> Head:
-    """Say what the relaxation that the file itself states leaves, where the forces follow it."""
-    own = {
-        slip: length for slip, length in (data.simulation.own_relaxation or {}).items() if data.varies(slip)
-    }
-    return with_own_lag(told, fit, own, {o: rms(rest) for o, rest in before.items()})
 
 
 def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:

@@ -12,6 +12,7 @@ import pandas as pd
 
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.mismatch.report.words import in_words
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.reporting import HOME, Links, Part, Table, Text, render_page
 from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.reporting.page_parts import without_empty_columns
@@ -203,8 +204,7 @@ def _counted(last: RowsOnDisk) -> str:
     said = [f"{count:,} {_as_verb(verdict, count)}" for verdict, count in counts.items()]
     if failed:
         said.append(f"{failed:,} could not be used")
-    recordings = "recording" if total + failed == 1 else "recordings"
-    return f"{total + failed:,} {recordings}: {', '.join(said)}."
+    return f"{how_many(total + failed, 'recording')}: {', '.join(said)}."
 
 
 def _as_verb(verdict: str, count: int) -> str:

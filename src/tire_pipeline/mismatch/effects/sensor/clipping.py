@@ -12,6 +12,7 @@ from tire_pipeline.channels import FORCE_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import CLIPPED
+from tire_pipeline.recordings.stretches import stretches
 
 
 class Clipping(Effect):
@@ -77,14 +78,15 @@ def _at_the_ends(x: Array, held: Callable[[Array], bool]) -> tuple[Array | None,
     limits = []
     for value in (values[-1], values[0]):
         at = x == value
-        runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
-        stays = runs.size and runs.max() >= 3 and not _crest(values, counts, value)
+        stays = len(_at_least(at, _LEAST_STAY)) > 0 and not _crest(values, counts, value)
         if at.sum() >= least and stays and not held(at):
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])
 
 
+_LEAST_STAY = 3
+"""Samples on end that a channel stands at a limit."""
 _STEPS_OF_CREST = 10
 _BY_CHANCE = 1e-3
 _DECIMALS = range(-3, 12)
@@ -125,10 +127,10 @@ def forces_move_on(name: str, channels: Mapping[str, Array], simulate: Simulate,
         Where the channel stands at an end of its range.
     """
     x = channels[name]
-    stands = _stretches(at, least=3)
+    stands = _at_least(at, _LEAST_STAY)
     length = int(np.median(np.diff(stands, axis=1)))
     between = (x > np.nanmin(x)) & (x < np.nanmax(x))
-    pieces = [_cut(stretch, length) for stretch in _stretches(between, least=length)]
+    pieces = [_cut(stretch, length) for stretch in _at_least(between, length)]
     others = np.concatenate(pieces or [stands[:0]])
     if not len(others):
         return False
@@ -147,10 +149,10 @@ def forces_move_on(name: str, channels: Mapping[str, Array], simulate: Simulate,
     return bool(scipy.stats.f.sf(ratio, len(there), len(elsewhere)) < _BY_CHANCE)
 
 
-def _stretches(mask: Array, least: int) -> Array:
-    """Return first sample and the one after the last of each stretch of at least so many, shape (k, 2)."""
-    edges = np.flatnonzero(np.diff(np.r_[0, mask.astype(np.int8), 0])).reshape(-1, 2)
-    return edges[np.diff(edges, axis=1)[:, 0] >= least]
+def _at_least(mask: Array, count: int) -> Array:
+    """Return the stretches of at least so many samples, shape (k, 2)."""
+    found = stretches(mask)
+    return found[np.diff(found, axis=1)[:, 0] >= count]
 
 
 def _cut(stretch: Array, length: int) -> Array:

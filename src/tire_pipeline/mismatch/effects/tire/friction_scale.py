@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
-from tire_pipeline.mismatch.effects.shared import safe_log1p
+from tire_pipeline.mismatch.effects.shared import in_both_forms, safe_log1p, scaled
 
 
 class FrictionScale(Effect):
@@ -45,7 +47,7 @@ class FrictionScale(Effect):
     def starts(self, data: Context) -> list[dict[str, float]]:
         """Both forms where they differ: at combined slip."""
         zero = self.zeros(data)
-        return [zero, {**zero, "by_file": 1.0}] if data.has_combined else [zero]
+        return in_both_forms(zero, "by_file") if data.has_combined else [zero]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """The friction; the form is one of the two."""
@@ -54,12 +56,15 @@ class FrictionScale(Effect):
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale the friction."""
         if p["by_file"] >= 0.5:
-            c = data.nominal.coefficients
-            state.coefficients.update({n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")})
+            state.coefficients.update(_of_file(data.nominal.coefficients, p))
             return
         state.log_friction = state.log_friction + safe_log1p(p["friction"])
 
     def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """LMUX and LMUY."""
-        c = tire.coefficients
-        return {n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")}
+        return _of_file(tire.coefficients, p)
+
+
+def _of_file(coefficients: Mapping[str, float], p: Parameters) -> dict[str, float]:
+    """Return LMUX and LMUY of a file, scaled."""
+    return scaled(coefficients, dict.fromkeys(("LMUX", "LMUY"), 1.0 + p["friction"]))

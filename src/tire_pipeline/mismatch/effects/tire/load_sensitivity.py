@@ -7,7 +7,7 @@ import numpy as np
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Array, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
-from tire_pipeline.mismatch.effects.shared import beyond_known, safe_log1p
+from tire_pipeline.mismatch.effects.shared import beyond_known, in_both_forms, safe_log1p
 
 
 class LoadSensitivity(Effect):
@@ -50,8 +50,7 @@ class LoadSensitivity(Effect):
 
     def starts(self, data: Context) -> list[dict[str, float]]:
         """In proportion to the load, or by a power of it."""
-        zero = self.zeros(data)
-        return [zero, {**zero, "power": 1.0}]
+        return in_both_forms(self.zeros(data), "power")
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""

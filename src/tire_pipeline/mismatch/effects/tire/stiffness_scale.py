@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
-from tire_pipeline.mismatch.effects.shared import safe_log1p
+from tire_pipeline.mismatch.effects.shared import in_both_forms, safe_log1p, scaled
 
 
 class StiffnessScale(Effect):
@@ -53,7 +53,7 @@ class StiffnessScale(Effect):
     def starts(self, data: Context) -> list[dict[str, float]]:
         """Both forms where they differ: at combined slip."""
         zero = self.zeros(data)
-        return [zero, {**zero, "by_file": 1.0}] if data.has_combined else [zero]
+        return in_both_forms(zero, "by_file") if data.has_combined else [zero]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
@@ -75,5 +75,5 @@ class StiffnessScale(Effect):
 
 def _of_file(coefficients: Mapping[str, float], p: Parameters) -> dict[str, float]:
     """Return LKX and LKY of a file, scaled."""
-    both = {n: coefficients.get(n, 1.0) * (1.0 + p["stiffness"]) for n in ("LKX", "LKY")}
-    return {**both, "LKY": both["LKY"] * (1.0 + p["lateral_stiffness"])}
+    along = 1.0 + p["stiffness"]
+    return scaled(coefficients, {"LKX": along, "LKY": along * (1.0 + p["lateral_stiffness"])})

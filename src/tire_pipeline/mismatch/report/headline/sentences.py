@@ -9,6 +9,8 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.shared import lengths_in_words
+from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -76,21 +78,14 @@ def head(
     else:
         causes = _causes(verdict, effects, remainder, ranges, rivals)
         size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
+    apart = _SEVERAL_APART if _several_open(effects) else ""
+    notes = (apart, on_placeless(effects, ranges), _more_left(remainder) if effects else "")
     return Head(
         causes=causes,
         spot=spot_of(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment, added),
-        notes=tuple(
-            filter(
-                None,
-                [
-                    _SEVERAL_APART if _several_open(effects) else "",
-                    on_placeless(effects, ranges),
-                    _more_left(remainder) if effects else "",
-                ],
-            )
-        ),
+        notes=tuple(filter(None, notes)),
         equation=on_unnamed(unnamed, verdict, rivals),
     )
 
@@ -127,7 +122,7 @@ def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) 
 
 
 def with_own_lag(
-    told: Head, fit: Mapping[str, OutputFit], lengths: Mapping[str, float], lagged: Mapping[str, float]
+    told: Head, fit: Mapping[str, OutputFit], lengths: Mapping[str, float], left: Mapping[str, np.ndarray]
 ) -> Head:
     """Return a head with the error beside the relaxation that the file states, which tire.forces lacks.
 
@@ -138,17 +133,14 @@ def with_own_lag(
     fit : mapping of str to OutputFit
     lengths : mapping of str to float
         Slip -> relaxation length that the file states, m, where the forces follow it.
-    lagged : mapping of str to float
-        Output -> RMS error with it and nothing else, N.
+    left : mapping of ndarray, shape (n,)
+        Output -> residual with it and nothing else, N.
     """
-    sizes = [
-        f"{o.capitalize()} {newtons(error)} N"
-        for o, error in lagged.items()
-        if newtons(error) != newtons(fit[o].rms_before)
-    ]
+    errors = {o: newtons(rms(rest)) for o, rest in left.items()}
+    sizes = [f"{o.capitalize()} {e} N" for o, e in errors.items() if e != newtons(fit[o].rms_before)]
     if not lengths or not sizes:
         return told
-    stated = " and ".join(f"{length:.2g} m of {slip}" for slip, length in lengths.items())
+    stated = lengths_in_words(lengths)
     lag = f"tire.forces lacks the relaxation that the file states ({stated}): with it alone the RMS error is "
     return replace(told, size="; ".join(filter(None, [told.size, f"{lag}{', '.join(sizes)}"])))
 
