@@ -36,3 +36,12 @@ def test_camber_may_be_a_wrong_channel_only_if_the_file_answers_to_camber(tire, 
     recording = record().assign(camber=0.03)
     said = catalogue()["camber"].same_fault(prepare(file, recording).data)
     assert bool(said) == knows
+
+
+@pytest.mark.parametrize("loads", [1, 3])
+def test_a_gain_of_the_load_may_be_an_offset_of_it_only_at_one_load(tire, record, loads):
+    recording = record()
+    if loads == 1:
+        recording = recording.assign(normal_load=float(recording["normal_load"].median()))
+    said = catalogue()["load_gain"].same_fault(prepare(tire, recording).data)
+    assert bool(said) == (loads == 1)

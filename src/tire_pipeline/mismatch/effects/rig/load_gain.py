@@ -33,6 +33,10 @@ class LoadGain(Effect):
     experiment = "hang known weights on the wheel, and compare the load channel with them"
     order = 8
 
+    def same_fault(self, data: Context) -> str:
+        """At one load an offset of the channel is a factor."""
+        return "" if data.varies("normal_load") else "an offset of the normal load"
+
     def misread(self, true: np.ndarray, p: Parameters) -> np.ndarray:
         """Return the recorded load."""
         return true * (1.0 + p["gain"])
