@@ -1,7 +1,9 @@
 """Unnamed forms of a rig that rings: the load cell carries a mass on a spring.
 
 A cell measures a force F as (w^2 + 2 z w s) / (s^2 + 2 z w s + w^2) F, with the rig's own frequency
-w and its damping z. What it adds is -s^2 / (s^2 + 2 z w s + w^2) F: nothing where the force is slow.
+w and its damping z. What the mass adds is -s^2 / (s^2 + 2 z w s + w^2) F: nothing where the force is slow.
+Where the damper is not beside the cell, as in a carcass on its rim, -2 z w s / (s^2 + 2 z w s + w^2) F comes
+on top.
 """
 
 from __future__ import annotations
@@ -9,35 +11,55 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import scipy
+from scipy.signal import cont2discrete, lfilter
 
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _LOWEST_FREQUENCY = 3.0
-"""Of the first bending of rigs and their load cells, Hz; the next are half an octave apart, as wide as the
-damping."""
-_DAMPING = 0.1
+"""Of the first bending of rigs and their load cells, Hz."""
+_DAMPING = (0.03, 0.1)
+"""Of a rig, and of a tire on its rim."""
 _SAMPLES_A_CYCLE = 3.0
 """A cycle has at least so many, or sampling does not show it."""
 
 
 def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array]]:
-    """Yield for each frequency that sampling shows what a rig that rings adds to each force, N."""
+    """Yield for each force what adds to it, N, where it rings as its residual does most clearly.
+
+    What rings is as narrow as its damping, so a few fixed frequencies would miss it. Each axis of a rig, and
+    of a tire, has a frequency of its own.
+    """
     step = float(np.median(data.step))
-    firsts = np.flatnonzero(data.start)[1:]
-    pieces = {o: np.split(force, firsts) for o, force in simulate(data, changes).items() if o in data.outputs}
+    firsts, rest, force = np.flatnonzero(data.start)[1:], residual(data, changes), simulate(data, changes)
+    tried = [(f, z) for z in _DAMPING for f in _frequencies(z, step)]
+    for o in data.outputs:
+        pieces = np.split(force[o], firsts)
+        found = [np.vstack([rung(piece, f, step, z) for piece in pieces]) for f, z in tried]
+        ringing = [added for added in found if np.any(added)]
+        if not ringing:
+            continue
+        best = max(ringing, key=lambda added, left=rest[o]: _explained(added, left))
+        yield {other: best if other == o else np.zeros_like(best) for other in data.outputs}
+
+
+def _explained(columns: Array, rest: Array) -> float:
+    """Return how much columns explain of the squares of a residual, N^2."""
+    return float((columns.T @ rest) @ np.linalg.lstsq(columns, rest, rcond=None)[0])
+
+
+def _frequencies(damping: float, step: float) -> Iterator[float]:
+    """Yield frequencies that sampling shows, Hz, each as wide as the damping makes it."""
     frequency = _LOWEST_FREQUENCY
     while _SAMPLES_A_CYCLE * frequency * step <= 1.0:
-        added = {o: np.concatenate([rung(piece, frequency, step) for piece in pieces[o]]) for o in pieces}
-        if any(np.any(a) for a in added.values()):
-            yield {o: a[:, None] for o, a in added.items()}
-        frequency *= np.sqrt(2.0)
+        yield frequency
+        frequency *= 1.0 + damping
 
 
-def rung(force: Array, frequency: float, step: float) -> Array:
-    """Return what a rig adds that rings at a frequency, from rest at the first sample.
+def rung(force: Array, frequency: float, step: float, damping: float) -> Array:
+    """Return what a rig adds that rings at a frequency, by its mass and by its damper, from rest.
 
     Parameters
     ----------
@@ -47,13 +69,15 @@ def rung(force: Array, frequency: float, step: float) -> Array:
         Hz.
     step : float
         s.
+    damping : float
+        Over the critical one.
 
     Returns
     -------
-    ndarray, shape (n,)
+    ndarray, shape (n, 2)
         N.
     """
     w = 2.0 * np.pi * frequency
-    system = ([-1.0, 0.0, 0.0], [1.0, 2.0 * _DAMPING * w, w * w])
-    above, below, _ = scipy.signal.cont2discrete(system, step, method="bilinear")
-    return np.asarray(scipy.signal.lfilter(np.ravel(above), below, force - force[0]))
+    above = [[-1.0, 0.0, 0.0], [-2.0 * damping * w, 0.0]]
+    parts = [cont2discrete((a, [1.0, 2.0 * damping * w, w * w]), step, method="foh") for a in above]
+    return np.column_stack([lfilter(np.ravel(a), below, force - force[0]) for a, below, _ in parts])
