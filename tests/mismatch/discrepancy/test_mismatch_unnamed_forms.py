@@ -18,3 +18,10 @@ def test_forms_without_a_name_need_a_time_line(tire, record):
     recording = record(3)
     assert len(list(forms(prepare(tire, recording).data, []))) > 10
     assert list(forms(prepare(tire, recording.iloc[::30].drop(columns="time")).data, [])) == []
+
+
+def test_heat_is_without_a_name_only_beside_a_recorded_temperature(tire, record):
+    recording = record(3)
+    without = len(list(forms(prepare(tire, recording).data, [])))
+    warm = recording.assign(tread_temperature=np.linspace(30.0, 60.0, len(recording)))
+    assert len(list(forms(prepare(tire, warm).data, []))) == without + 2

@@ -74,7 +74,7 @@ def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
 
 
 def _drivers(data: Data) -> Iterator[Array]:
-    """Yield rates and memories of the inputs, each of about unit size."""
+    """Yield rates and memories of the inputs, and heat that no channel shows, each of about unit size."""
     for name in ("slip_angle", "slip_ratio", "normal_load"):
         if not data.varies(name):
             continue
@@ -95,6 +95,9 @@ def _drivers(data: Data) -> Iterator[Array]:
             yield memory
             if name in FORCE_OF_SLIP:
                 yield _from_rest(level, gain)
+    if data.states.power is not None and data.varies("tread_temperature"):  # else it is tread temperature
+        for lag in MEMORY_SECONDS:
+            yield _unit(data.states.heat(lag))
 
 
 def _beyond_place(data: Data, driver: Array, name: str) -> Array:
