@@ -68,8 +68,8 @@ def _settled(
     if not prepared.stopped or question is None:
         return prepared, answer
     before = residual(analysis.data, [])
-    left = (shares_left(residual(analysis.data, each.changes), before) for each in answer.likely)
-    if answer.unnamed < level and any(question.answered(1.0 - max(share.values())) for share in left):
+    left = [max(shares_left(residual(analysis.data, s.changes), before).values()) for s in answer.likely]
+    if answer.unnamed < level and question.answered(min(left, default=1.0), answer.one_cause > level):
         return replace(prepared, questions=prepared.questions[1:]), answer
     return prepared, nothing(answer.case)
 

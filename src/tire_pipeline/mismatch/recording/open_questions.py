@@ -24,7 +24,8 @@ class Question:
         for all the same, and only no corrected file may be written.
     removed : float, optional
         Share of the squared mismatch that is gone if what is asked is so. A set of effects that removes as
-        much answers the question: it needs less to be assumed.
+        much answers the question, and so does one effect that explains the mismatch alone: both need less to
+        be assumed.
     """
 
     why: str
@@ -32,6 +33,14 @@ class Question:
     verdict: str = ""
     removed: float | None = None
 
-    def answered(self, removed: float) -> bool:
-        """Whether a set of effects that removes this share of the squared mismatch leaves as little."""
-        return self.removed is not None and 1.0 - removed <= AS_WELL * (1.0 - self.removed)
+    def answered(self, left: float, by_one: bool) -> bool:
+        """Whether sets of effects answer the question.
+
+        Parameters
+        ----------
+        left : float
+            Smallest share of the squared mismatch that a likely set leaves.
+        by_one : bool
+            Whether one effect alone is likely to explain the mismatch.
+        """
+        return self.removed is not None and (by_one or left <= AS_WELL * (1.0 - self.removed))

@@ -87,6 +87,11 @@ class SetAnswer:
         return tuple(sorted(self.likely, key=lambda each: -self.probabilities[each.names]))
 
     @property
+    def one_cause(self) -> float:
+        """Probability that one effect explains the mismatch, with nothing unnamed beside it."""
+        return sum(p for names, p in self.alone.items() if len(names) == 1)
+
+    @property
     def beside_unnamed(self) -> tuple[Names, ...]:
         """Something unnamed, as an empty set, and the sets that would do instead of it.
 
