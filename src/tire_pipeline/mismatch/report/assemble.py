@@ -301,7 +301,7 @@ def _unnamed(
     The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could absorb
     it, not that it is one. Sweeps that an equation has not seen tell the two apart.
     """
-    plainly = verdict not in _SOMETHING_LEFT
+    plainly = verdict not in (*_SOMETHING_LEFT, "undecided")
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
         return None, model, fit
     with under_way("looking for an equation of the residual"):
