@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from weighed import all_but
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import CorrectedModel
-from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
+from tire_pipeline.mismatch import CorrectedModel, explain_mismatch
+from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay, way_at_each
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.prepare import prepare
 
@@ -19,7 +20,7 @@ def test_a_wave_is_added_in_the_recording_that_was_explained_and_left_out_of_ano
         "cosine_y": 200.0,
         "radius": 0.97 * data.nominal.radius,
     }
-    rolled = WheelWay(data.time, recording["speed"].to_numpy(), data.wheel.way)
+    rolled = WheelWay(data.time, recording["normal_load"].to_numpy(), data.wheel.way)
     corrected = CorrectedModel(tire, (("nonuniformity", wave),), ("fy",), rolled=rolled)
     other = recording.assign(time=recording["time"] + 1000.0)
     found, elsewhere = corrected.predict(recording), corrected.predict(other)
@@ -30,3 +31,28 @@ def test_a_wave_is_added_in_the_recording_that_was_explained_and_left_out_of_ano
     assert "angle of the wheel" in elsewhere.attrs["notes"][0]
     with pytest.raises(RecordingError, match="nonuniformity needs the channel speed"):
         corrected.predict(recording.drop(columns="speed"))
+
+
+@pytest.mark.parametrize("rate", [25.0, 200.0])
+def test_a_wave_is_added_at_each_sample_of_a_fast_recording(tire, record, rate):
+    """Neighbours are averaged before they are weighed, and none of the recorded samples was its own."""
+    recording = record(0, rate=rate)
+    way = np.cumsum(recording["speed"].to_numpy()) / rate
+    radius = 0.97 * tire.coefficients["UNLOADED_RADIUS"]
+    recording["fy"] += 200.0 * np.cos(way / radius)
+    report = explain_mismatch(tire, recording, without=all_but("nonuniformity", "friction_scale"))
+    assert report.sets[0][0] == ("nonuniformity",)
+    fit, predicted = report.fit["fy"], report.corrected.predict(recording)
+    assert fit.rms_after < 0.5 * fit.rms_before
+    assert np.std(recording["fy"] - predicted["fy"]) < 0.5 * fit.rms_before
+    assert "notes" not in predicted.attrs
+
+
+def test_samples_without_a_load_are_of_no_recording():
+    stamps = np.arange(0.01, 1.0, 0.02)
+    time, load = np.arange(0.0, 1.0, 0.01), np.full(100, 4000.0)
+    load[3] = np.nan
+    rolled = way_at_each(time, load, stamps, 20.0 * stamps)
+    at = rolled.at(time, load)
+    assert np.flatnonzero(np.isnan(at)).tolist() == [3]
+    np.testing.assert_allclose(np.delete(at, 3), np.delete(20.0 * time, 3))

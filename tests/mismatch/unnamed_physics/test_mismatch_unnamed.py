@@ -239,14 +239,17 @@ def test_the_sidecar_holds_the_equation_and_reads_back(on_a_drum, tmp_path):
     assert read.ranges["t"] == pytest.approx(report.corrected.unnamed.ranges["t"])
 
 
-def test_after_the_recorded_time_it_is_gone_and_that_is_said(on_a_drum):
+@pytest.mark.parametrize("change", [{"time": 1e4}, {"normal_load": 1e-6}], ids=["later", "at once"])
+def test_an_equation_of_the_way_is_left_out_of_another_recording_and_that_is_said(on_a_drum, change):
+    """Another recording has another phase, even where its clock starts at the same time."""
     recording, report = on_a_drum
-    later = recording.assign(time=recording["time"] + 1e4)
+    other = recording.assign(**{name: recording[name] + by for name, by in change.items()})
     empty = replace(report.corrected.unnamed, equations={"fy": "0*fy"})
-    without = replace(report.corrected, unnamed=empty).predict(later)
-    with_it = report.corrected.predict(later)
+    without = replace(report.corrected, unnamed=empty).predict(other)
+    with_it = report.corrected.predict(other)
     np.testing.assert_allclose(with_it["fy"], without["fy"])
-    assert "faded outside of its range at 100.0%" in with_it.attrs["notes"][0]
+    assert "left out at 100.0% of the samples" in with_it.attrs["notes"][0]
+    assert "left out" not in " ".join(report.corrected.predict(recording).attrs["notes"])
 
 
 def test_the_page_and_the_dictionary_show_it_apart_from_ideas(on_a_drum, tmp_path):

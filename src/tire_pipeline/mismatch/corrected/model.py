@@ -174,7 +174,8 @@ class CorrectedModel:
             each = [forces, *(self._simulated(data, changes) for _, changes in others)]
             whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
             forces = {name: partly(start, whole[name], self.part) for name, start in plain.items()}
-        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
+        load = recording["normal_load"].to_numpy(dtype=float, na_value=np.nan)
+        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, load, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
@@ -205,8 +206,8 @@ class CorrectedModel:
             if unknown
         ]
 
-    def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
-        """Add the unnamed equation to the forces, and say where it fades."""
+    def _put_unnamed(self, data: Data, load: Array, forces: dict[str, Array]) -> list[str]:
+        """Add the unnamed equation to the forces, and say where it fades; the load is as it was recorded."""
         if self.unnamed is None:
             return []
         for channel in self.unnamed.channels:
@@ -215,15 +216,22 @@ class CorrectedModel:
                     f"{self.unnamed.title} needs the channel {channel}", where=channel, todo="add the column"
                 )
         table, _ = table_of(data, self.changes, self.unnamed.nominal)
+        own = np.ones(data.size, bool)
+        if self.unnamed.of_one_recording and self.rolled is not None:
+            own = np.isfinite(self.rolled.at(data.time_line, load))
         for name, change in self.unnamed.change(table).items():
             if name in forces:
-                forces[name] = forces[name] + change
-        faded = float(np.mean(self.unnamed.weight(table) < 1.0))
-        return (
-            [f"{self.unnamed.title}: faded outside of its range at {faded:.1%} of the samples"]
-            if faded
-            else []
-        )
+                forces[name] = forces[name] + np.where(own, change, 0.0)
+        title, notes = self.unnamed.title, []
+        if not own.all():
+            notes.append(
+                f"{title}: left out at {np.mean(~own):.1%} of the samples, which are not of the recording "
+                "that was explained: it goes with that one's clock, or the way rolled since its start"
+            )
+        faded = float(np.mean(own & (self.unnamed.weight(table) < 1.0)))
+        if faded:
+            notes.append(f"{title}: faded outside of its range at {faded:.1%} of the samples")
+        return notes
 
     def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
         """Return the model with the noise of the recording that was explained.
@@ -304,7 +312,7 @@ class CorrectedModel:
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
         way = None
         if self.rolled is not None and time is not None and "speed" in channels:
-            way = self.rolled.at(time, channels["speed"])
+            way = self.rolled.at(time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan))
         recorded = RecordedChannels(
             channels=channels,
             recorded={o: np.zeros(n) for o in self.outputs},

@@ -9,6 +9,7 @@ on top.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from scipy.signal import cont2discrete, lfilter
@@ -41,7 +42,7 @@ def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array
         ringing = [added for added in found if np.any(added)]
         if not ringing:
             continue
-        best = max(ringing, key=lambda added, left=rest[o]: _explained(added, left))
+        best = max(ringing, key=partial(_explained, rest=rest[o]))
         yield {other: best if other == o else np.zeros_like(best) for other in data.outputs}
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
-from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
+from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay, way_at_each
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
@@ -261,8 +261,6 @@ def _model(
         measured=frozenset(data.present),
         relaxes=data.simulation.own_relaxation is not None,
     )
-    every = [change for explanation in (changes, *(c for _, c in instead)) for change in explanation]
-    turning = any(catalogue()[n].quarter_turn(p) is not None for n, p in every)
     model = CorrectedModel(
         data.tire,
         tuple(changes),
@@ -276,16 +274,19 @@ def _model(
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
         part=part,
-        rolled=_rolled(it) if turning else None,
+        rolled=_rolled(it),
     )
     return model.limited_where_it_helps(it.recording).cleaned_where_it_helps(it.recording)
 
 
-def _rolled(it: Explained) -> WheelWay:
-    """Return where the wheel stood at each recorded sample."""
+def _rolled(it: Explained) -> WheelWay | None:
+    """Return where the wheel stood at each recorded sample; None without a time line."""
     data = it.prepared.data
-    speed = it.recording["speed"].to_numpy(dtype=float)[it.prepared.rows]
-    return WheelWay(data.time_line, speed * it.prepared.factors.get("speed", 1.0), data.wheel.way)
+    if data.time is None:
+        return None
+    time, load = (it.recording[n].to_numpy(dtype=float, na_value=np.nan) for n in ("time", "normal_load"))
+    way = data.wheel.way if data.has("speed") else np.zeros(data.size)
+    return way_at_each(time, load, data.time_line, way)
 
 
 def _unnamed(

@@ -67,6 +67,11 @@ class UnnamedPhysics:
     def _remembers(self) -> bool:
         return any(name in text for text in self.equations.values() for name in ("lag(", "play(", "highest("))
 
+    @property
+    def of_one_recording(self) -> bool:
+        """Whether it goes with the clock, or the way rolled, of the recording that was explained."""
+        return "t" in self.ranges
+
     def weight(self, table: SymbolTable) -> Array:
         """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
         out = np.ones(table.size)
@@ -96,6 +101,7 @@ class UnnamedPhysics:
             "fade": {s: _fade(s) for s in self.ranges},
             "depends_on": list(self.depends_on),
             "acts_on": self.acts_on,
+            "of_one_recording": self.of_one_recording,
         }
 
 

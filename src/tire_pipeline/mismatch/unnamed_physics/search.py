@@ -124,7 +124,7 @@ def _better(
     found = _reported(problem, parts)
     if not surely_less(problem, rival, left):
         return None, {}
-    if found.physics is None or "t" in found.physics.ranges:
+    if found.physics is None or found.physics.of_one_recording:
         return None, {}  # an equation in time, or the way rolled, ends with its recording; a name does not
     return found, left
 
