@@ -291,6 +291,9 @@ def test_the_page_and_the_dictionary_show_it_apart_from_ideas(on_a_drum, tmp_pat
     shown = re.findall(r"<code>(f[xy] \+= .*?)</code>", page)
     assert shown
     assert not re.search(r"\d\.\d{6}", " ".join(shown)), "digits that no reader needs"
+    assert f"F0: {report.unnamed.physics.nominal.F0:,.6g} N" in page
+    used = set().union(*(parse(text.split(" += ")[1]).symbols for text in shown))
+    assert not [symbol for symbol in used if f"{symbol}: " not in page], "a symbol that nobody explains"
     told = report.to_dict()["unnamed"]
     assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
     assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]
