@@ -5,24 +5,25 @@ import json
 import math
 import re
 import sys
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from pathlib import Path
 from statistics import median
 
-_TOKEN = re.compile(r"\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?|[A-Za-z_]\w*|[-+*/^(),]")
+_TOKEN = re.compile(r"\d{1,99}(?:\.\d*)?(?:[eE](?:-\d|[+-]?)\d\d?)?|(?![iInN])[A-Za-z_]\w*|[-+*/^(),]", re.A)
 _PAIRS = {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}
 _PLAIN = {"abs": abs, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "exp": math.exp, "tanh": math.tanh}
+_MEMORIES = ("lag", "lagway", "play", "highest")
 
 
 def _value(text, table, clock):
-    tokens = _TOKEN.findall(text)
+    tokens = [*_TOKEN.findall(text), ""]
     if "".join(tokens) != re.sub(r"\s", "", text) or len(text) > 2000:
         raise ValueError(f"not of the grammar: {text[:60]}")
 
     def taken(*signs):
-        return tokens.pop(0) if tokens and tokens[0] in signs else ""
+        return tokens.pop(0) if tokens[0] in signs else ""
 
-    def chain(signs, lower):
+    def joined(signs, lower):
         left = lower()
         while sign := taken(*signs):
             left = [_PAIRS[sign](a, b) for a, b in zip(left, lower(), strict=True)]
@@ -35,29 +36,29 @@ def _value(text, table, clock):
 
     def part():
         word = tokens.pop(0)
-        if word[0].isdigit() or (word != "(" and not taken("(")):
-            return [float(word)] * len(clock) if word[0].isdigit() else table[word]
-        x = chain("+-", lambda: chain("*/", power))
-        number = float(tokens.pop(0)) if taken(",") else 0.0
-        tokens.remove(")") if tokens and tokens[0] == ")" else sys.exit("a bracket is missing")
-        return x if word == "(" else [_PLAIN[word](v) for v in x] if word in _PLAIN else past(word, x, number)
+        if word[:1].isdigit() or (word != "(" and not taken("(")):
+            return [float(word)] * len(clock) if word[:1].isdigit() else table[word]
+        x = joined("+-", lambda: joined("*/", power))
+        number = float(tokens.pop(0)) if word in _MEMORIES[:3] and taken(",") else 0.0
+        x = [*past(word, x, number)] if word in _MEMORIES else x if word == "(" else [*map(_PLAIN[word], x)]
+        return x if taken(")") and (number > 0) == (word in _MEMORIES[:3]) else sys.exit(f"wrong in {word}(")
 
     def past(name, x, number):
-        y, out = x[0], []
+        y = x[0]
         for v, (step, way, start) in zip(x, clock, strict=True):
             if name in ("lag", "lagway"):
                 y = v if start else y - math.expm1(-(step if name == "lag" else way) / number) * (v - y)
             else:
                 y = max(y, v) if name == "highest" else min(max(v if start else y, v - number), v + number)
-            out.append(y)
-        return out
+            yield y
 
-    return chain("+-", lambda: chain("*/", power))
+    out = joined("+-", lambda: joined("*/", power))
+    return out if tokens == [""] else sys.exit(f"{tokens[0]} was not expected: {text[:60]}")
 
 
 def _added(entry, table):
-    steps = [b - a for a, b in pairwise(table["time"])]
-    usual = median(steps)
+    known = entry["format"] == "unnamed physics 1" and set(entry["equation"]) <= {"fx", "fy"}
+    usual = median(steps := [b - a for a, b in pairwise(table["time"])] if known else sys.exit("no format"))
     starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]
     steps = [0.0 if start else d for start, d in zip(starts, [0.0, *steps], strict=True)]
     ways = [d * abs(v) for d, v in zip(steps, table.get("speed", [0.0] * len(steps)), strict=True)]
@@ -69,7 +70,7 @@ def _added(entry, table):
         width = max(entry["fade"][symbol] * (high - low), 1e-12)
         fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in table[symbol]]
         out = {o: [f * w for f, w in zip(force, fade, strict=True)] for o, force in out.items()}
-    return out
+    return out if all(map(math.isfinite, chain(*out.values()))) else sys.exit("it is not finite")
 
 
 if __name__ == "__main__":

@@ -41,20 +41,53 @@ def physics(text, ranges=None):
     return UnnamedPhysics({"fy": text}, ("speed",), "force", ranges or {"v": (0.8, 1.2)}, NOMINAL)
 
 
-@pytest.mark.parametrize("text", EQUATIONS)
-def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
+def as_read(entry, folder):
+    """What the example reader says of an entry; its exit code is not 0 where it refuses."""
     columns, channels, time = table()
-    found = physics(text)
-    sidecar, symbols = tmp_path / "tire.tir.sidecar.json", tmp_path / "symbols.csv"
-    sidecar.write_text(json.dumps({"effects": {"unnamed": found.to_sidecar()}}))
+    sidecar, symbols = folder / "tire.tir.sidecar.json", folder / "symbols.csv"
+    sidecar.write_text(json.dumps({"effects": {"unnamed": entry}}))
     names = {n: columns.columns[n] for n in columns.columns if n not in {*asdict(NOMINAL), "way"}}
     pd.DataFrame({**names, "time": time, "speed": channels["speed"]}).to_csv(symbols, index=False)
     command = [sys.executable, "-I", str(READER), str(sidecar), str(symbols)]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return subprocess.run(command, check=False, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize("text", EQUATIONS)
+def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
+    found = physics(text)
+    said = as_read(found.to_sidecar(), tmp_path).stdout
     read = np.array([float(row["fy"]) for row in csv.DictReader(said.splitlines())])
-    own = found.change(columns)["fy"]
+    own = found.change(table()[0])["fy"]
     assert np.max(np.abs(own)) > 1.0
     np.testing.assert_allclose(read, own, rtol=1e-9, atol=1e-9 * np.max(np.abs(own)))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"equation": {"fy": text}}
+        for text in (
+            "fy*v) + 1",
+            "fy 5",
+            "2^9^9",
+            "open(fy)",
+            "*(fy)",
+            "abs(fy, 3)",
+            "play(fy)",
+            "lag(fy, inf)",
+            "1e999*fy",
+            "1e99^9*fy - 1e99^9*fy",
+            "fy/(v - v)",
+            "(" * 900 + "fy" + ")" * 900,
+            "+".join(["fy"] * 2000),
+        )
+    ]
+    + [{"equation": {"mz": "fy"}}, {"format": "other"}, {"range": {"v": [float("nan"), 1.0]}}],
+)
+def test_the_reader_refuses_what_is_not_of_the_grammar_or_not_finite(change, tmp_path):
+    found = as_read({**physics("0.1*fy*v").to_sidecar(), **change}, tmp_path)
+    assert found.returncode != 0
+    assert not found.stdout
 
 
 def test_the_reader_is_short_and_evaluates_nothing():
@@ -261,6 +294,9 @@ def test_the_page_and_the_dictionary_show_it_apart_from_ideas(on_a_drum, tmp_pat
     shown = re.findall(r"<code>(f[xy] \+= .*?)</code>", page)
     assert shown
     assert not re.search(r"\d\.\d{6}", " ".join(shown)), "digits that no reader needs"
+    assert f"F0: {report.unnamed.physics.nominal.F0:,.6g} N" in page
+    used = set().union(*(parse(text.split(" += ")[1]).symbols for text in shown))
+    assert not [symbol for symbol in used if f"{symbol}: " not in page], "a symbol that nobody explains"
     told = report.to_dict()["unnamed"]
     assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
     assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
+from dataclasses import asdict
 from importlib.resources import files
 from typing import Any
 
@@ -24,9 +26,12 @@ from tire_pipeline.mismatch.report.words import (
     short_equation,
 )
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.grammar import parse
+from tire_pipeline.mismatch.unnamed_physics.symbols import MEANING
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy
 
+_UNITS = {"F0": "N", "R0": "m", "V0": "m/s", "P0": "Pa", "T0": "degC"}
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
 
@@ -72,10 +77,16 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
 
 
 def _symbols(found: UnnamedReport | None) -> list[tuple[str, str]]:
-    """Symbols of an unnamed equation, and what they mean."""
+    """Symbols of an unnamed equation and of those as good, what they mean, and the nominal values in them."""
     if found is None or found.physics is None:
         return []
-    return list(found.physics.to_sidecar()["symbols"].items())
+    each = [found.physics.equations, *(other.equations for other in found.alternatives)]
+    texts = [text for equations in each for text in equations.values()]
+    used = frozenset(found.physics.ranges).union(*(parse(text).symbols for text in texts))
+    told = [(symbol, MEANING[symbol]) for symbol in MEANING if symbol in used and symbol not in _UNITS]
+    words = {*used, *re.findall(r"\w+", " ".join(meaning for _, meaning in told))}
+    nominal = asdict(found.physics.nominal)
+    return told + [(name, f"{nominal[name]:,.6g} {unit}") for name, unit in _UNITS.items() if name in words]
 
 
 def number(value: Any, digits: int = 3) -> str:
