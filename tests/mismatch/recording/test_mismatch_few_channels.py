@@ -3,14 +3,17 @@
 import itertools
 
 import numpy as np
+import pandas as pd
 import pytest
 from mismatch_shared import shared
+from weighed import all_but
 
 from tire_pipeline.concealed import make_case
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect
+from tire_pipeline.mismatch.recording.given import usable_numbers
 from tire_pipeline.mismatch.report.contents import VERDICTS
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 
@@ -131,3 +134,42 @@ def test_all_channels_that_are_not_needed_may_be_missing(source):
     tire, recording = SOURCES[source]()
     for dropped in subsets(recording, range(2, len(KNOWN))):
         check(tire, recording, dropped)
+
+
+@pytest.mark.parametrize("channel", ["camber", "pressure", "time"])
+def test_a_column_without_any_number_is_a_channel_that_was_not_recorded(tire, record, channel):
+    recording = record(3, friction=1.2)
+    told = "no number in the column"
+    few = all_but("friction_scale", "stiffness_scale")
+    empty, without = (
+        explain_mismatch(tire, given, without=few)
+        for given in (recording.assign(**{channel: np.nan}), recording.drop(columns=channel, errors="ignore"))
+    )
+    assert empty.fit["fy"].rms_before == without.fit["fy"].rms_before
+    assert empty.sets == without.sets
+    predicted = empty.corrected.predict(recording.assign(**{channel: np.nan}))
+    np.testing.assert_array_equal(predicted["fy"], without.corrected.predict(recording)["fy"])
+    assert told in " ".join(usable_numbers(recording.assign(**{channel: np.nan})).attrs["notes"])
+
+
+def test_brake_sweeps_at_one_slip_angle_are_explained(tire):
+    """The misfit's grid had no side of a slip angle that does not vary."""
+    rng, n = np.random.default_rng(3), 240
+    time = np.arange(3 * n) / 20.0
+    channels = pd.DataFrame(
+        {
+            "time": time,
+            "slip_angle": np.radians(4.0) + rng.normal(0.0, 4e-4, time.size),
+            "slip_ratio": -0.2
+            * np.abs(np.sin(np.pi * time / 6.0))
+            * np.where((time // 6.0) % 2.0, -1.0, 1.0),
+            "normal_load": np.repeat([2000.0, 4000.0, 5600.0], n),
+            "speed": 16.7,
+        }
+    )
+    forces = tire.forces(**{name: channels[name] for name in channels if name != "time"})
+    recording = channels.assign(
+        fx=forces.fx + rng.normal(0.0, 60.0, time.size), fy=forces.fy + rng.normal(0.0, 60.0, time.size)
+    )
+    report = explain_mismatch(tire, recording, without=all_but("friction_scale", "stiffness_scale"))
+    assert report.verdict == "agrees"

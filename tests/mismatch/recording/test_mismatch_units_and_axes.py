@@ -204,6 +204,18 @@ def test_a_real_rig_file_in_sae_axes_is_not_explained_by_camber(gain, tmp_path):
     assert "negative throughout" in prepare(tire, wrong[level]).question.why
 
 
+def test_halves_of_a_real_table_have_the_same_axes():
+    """The asymmetry of a file that was fitted to 56 points is off by as much as turned signs change."""
+    table = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    table = table[["slip_angle", "camber", "normal_load", "pressure", "fy"]]
+    found = []
+    for seed in (*DRAWS, 77):
+        rows = np.random.default_rng(seed).permutation(len(table))
+        fitted, other = (table.iloc[np.sort(r)].reset_index(drop=True) for r in (rows[:56], rows[56:]))
+        found += findings(fit_magic_formula(fitted, version="5.2", starts=2).model, other)
+    assert found == []
+
+
 def test_units_of_channels_that_no_explanation_uses_are_not_listed(tire, record, tmp_path):
     """On a real rig's page they stood first: effective and loaded radius, wheel speed."""
     r = record(0).iloc[:400].assign(loaded_radius=30.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -67,7 +67,7 @@ def numeric(recording: Any) -> pd.DataFrame:
     """Return a recording with its known columns as numbers; the same object where they are.
 
     Numbers that came as text become numbers, and dates seconds from the first one. A number so large that its
-    square is none is missing: no channel reaches it.
+    square is none is missing: no channel reaches it. A column without any number is left out.
 
     Parameters
     ----------
@@ -94,7 +94,19 @@ def numeric(recording: Any) -> pd.DataFrame:
             beyond = np.isfinite(x) & ~np.isfinite(x * x)
         if beyond.any():
             changed[str(name)] = pd.Series(np.where(beyond, np.nan, x), recording.index)
-    return recording.assign(**changed) if changed else recording
+    return _without_empty(recording.assign(**changed) if changed else recording, names)
+
+
+def _without_empty(recording: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:
+    """Leave out columns without any number, and note it: such a channel is not recorded."""
+    finite = (np.isfinite(recording[n].to_numpy(dtype=float, na_value=np.nan)).any() for n in names)
+    empty = [] if len(recording) == 0 else [n for n, some in zip(names, finite, strict=True) if not some]
+    if not empty:
+        return recording
+    known = recording.drop(columns=empty)
+    note = f"{', '.join(empty)}: no number in the column, so the channel counts as not recorded"
+    known.attrs = {**recording.attrs, "notes": [*recording.attrs.get("notes", []), note]}
+    return known
 
 
 def _numbers(column: pd.Series) -> pd.Series:

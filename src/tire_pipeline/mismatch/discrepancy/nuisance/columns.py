@@ -134,12 +134,11 @@ def _grid(data: Data) -> dict[str, Array]:
     rows = [(x, rolled, lean, f) for f in loads for x in a]
     rows += [(turned, x, lean, f) for f in loads for x in k]
     if data.varies("camber") and data.nominal.knows_camber:
-        leans = np.delete(_range(data, "camber", _ACROSS), _ACROSS // 2)
+        leans = _sides(data, "camber")
         rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
         rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]
     if data.has_combined:
-        sides = np.delete(_range(data, "slip_angle", _ACROSS), _ACROSS // 2)
-        rows += [(s, x, lean, f) for f in loads for s in sides for x in k[::2]]
+        rows += [(s, x, lean, f) for f in loads for s in _sides(data, "slip_angle") for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
@@ -149,6 +148,12 @@ def _range(data: Data, name: str, count: int) -> Array:
         return np.array([_at_rest(data, name)])
     top = largest(data.get(name))
     return np.linspace(-top, top, count)
+
+
+def _sides(data: Data, name: str) -> Array:
+    """Return values of an input to both sides of zero; the one at which it stands if it does not vary."""
+    values = _range(data, name, _ACROSS)
+    return values[values != 0.0] if values.size > 1 else values
 
 
 def _still(data: Data, name: str) -> Array:
