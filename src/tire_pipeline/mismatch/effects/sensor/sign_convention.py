@@ -29,8 +29,8 @@ _FORM = 0.15
 """How wrong the form of the model's answer to a channel may be, as a part of it."""
 
 _OF_FILE = 0.003
-"""How far a file may be off in what turned signs change, over the largest force: fits of clean tires break the
-mirror symmetry by 0.12 to 0.2 of their misfit, which is 2% at most."""
+"""How far a file may be off in what turned signs change, over the largest force: fits of clean tires break
+the mirror symmetry by 0.12 to 0.2 of their misfit, which is 2% at most."""
 
 _AWAY = 0.1
 """Part of the mismatch that turned signs must take away: what is there by chance is small."""
