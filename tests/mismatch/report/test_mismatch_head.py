@@ -268,13 +268,16 @@ def test_an_effect_without_a_place_is_said_to_have_none_beside_one_that_has(camb
     assert [r.split(" has ")[0] for r in said] == placeless
 
 
-def test_what_is_off_throughout_is_at_no_place_of_an_effect():
+@pytest.mark.parametrize(
+    ("share", "said"), [(-0.1, "10% lower"), (1.0, "at least 100% higher"), (1.13, "at least 100% higher")]
+)
+def test_what_is_off_throughout_is_at_no_place_of_an_effect(share, said):
     """A gain does most at large loads, and is everywhere."""
     ranges = {"normal_load": (1000.0, 6000.0)}
     effect = replace(EFFECT, where={"normal_load": (4000.0, 6000.0)})
-    even = {"fy": Throughout(-90.0, -0.1)}
+    even = {"fy": Throughout(900.0 * share, share)}
     text = head("explained", [effect], FIT, [replace(PLACE, mean=-90.0)], NONE, "", ranges, even).text
-    assert "Fy is 10% lower than the model throughout" in text
+    assert f"Fy is {said} than the model throughout" in text
     assert "changes Fy" not in text
 
 

@@ -20,6 +20,9 @@ _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
 
+_WHOLE = 99.5
+"""Percent: what would be rounded to the whole force."""
+
 Ranges = Mapping[str, tuple[float, float]]
 """Time and each channel that varies -> lowest and highest recorded value, SI."""
 
@@ -166,7 +169,9 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throug
             return f"{name} differs from the model by {even[output].mean:+,.3g} N throughout"
         word = "lower" if share < 0.0 else "higher"
         most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
-        return f"{name} is {abs(share) * 100:.2g}% {word} than the model throughout ({most})"
+        size = abs(share) * 100
+        much = f"{size:.2g}%" if size < _WHOLE else "at least 100%"
+        return f"{name} is {much} {word} than the model throughout ({most})"
     much = _of_the_force(best.share)
     if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
@@ -185,4 +190,4 @@ def _of_the_force(share: float) -> str:
     if not np.isfinite(share):
         return "where the force is small"
     size = abs(share) * 100
-    return f"{size:.2g}% of the force there" if size < 99.5 else "more than the force there"
+    return f"{size:.2g}% of the force there" if size < _WHOLE else "more than the force there"
