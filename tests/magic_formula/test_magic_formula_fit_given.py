@@ -7,6 +7,7 @@ import pytest
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import PoorFitWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
+from tire_pipeline.recordings import join_recordings
 
 pytestmark = pytest.mark.slow
 
@@ -28,7 +29,7 @@ def sweep() -> pd.DataFrame:
         ({"fy": 1e300}, "no force or moment was measured: fy holds no number"),
         ({"fy": 5.0}, "no force or moment was measured: fy is 5 N throughout"),
         ({"fy": 0.0}, "no force or moment was measured"),
-        ({"slip_angle": np.inf}, "only 0 points"),
+        ({"slip_angle": np.inf}, "neither slip_angle nor slip_ratio is recorded; slip_angle holds no number"),
     ],
 )
 def test_what_was_not_measured_is_no_fit(change, said):
@@ -53,11 +54,63 @@ def test_infinite_values_are_left_out_as_missing_ones_are():
     assert fit_magic_formula(table).relative_rms["fy"] < 1e-3
 
 
-def test_a_slip_ratio_that_says_locked_throughout_was_not_measured():
-    """Rigs write -1 where they roll freely."""
-    fit = fit_magic_formula(sweep().assign(slip_ratio=-1.0))
+@pytest.mark.parametrize("noise", [0.0, 2e-4, 0.01])
+def test_a_slip_ratio_that_says_locked_throughout_was_not_measured(noise):
+    """Rigs write -1, with the noise of the wheel's speed, where they roll freely: the side force doubled."""
+    table = sweep()
+    ratio = -1.0 + np.random.default_rng(1).normal(0.0, noise, len(table))
+    ratio[[3, 70]] = [0.4, np.nan]  # an odd sample, and a missing one, change nothing
+    fit = fit_magic_formula(table.assign(slip_ratio=ratio), starts=4)
     assert fit.relative_rms["fy"] < 1e-3
-    assert any("locked wheel" in note for note in fit.notes)
+    assert len(fit.measured) == len(table)
+    assert any("locked wheel: taken as not measured" in note for note in fit.notes)
+
+
+def test_a_wheel_that_brakes_until_it_locks_was_measured():
+    table = braked([-0.14, -0.07, 0.0, 0.07, 0.14])[0]
+    stopped = table.assign(slip_ratio=np.where(table["slip_ratio"] < -0.1, -1.0, table["slip_ratio"]))
+    fit = fit_magic_formula(stopped, starts=1)
+    assert not any("locked" in note for note in fit.notes)
+    assert fit.measured["slip_ratio"].min() == -1.0
+
+
+def test_of_joined_recordings_one_may_have_no_slip_ratio():
+    """A rig writes -1 in its sweeps of the slip angle, and measures the slip where it brakes."""
+    table, tire = braked([-0.14, -0.07, 0.0, 0.07, 0.14])
+    free = sweep().assign(slip_ratio=-1.0002, fx=0.0)
+    joined = join_recordings({"free": free, "braked": table})
+    fit = fit_magic_formula(joined, starts=4)
+    assert (
+        f"slip_ratio is -1 in rows 0 to {len(free) - 1}, a locked wheel: taken as not measured, and as 0"
+        in (fit.notes)
+    )
+    at = {"slip_angle": [0.02, 0.1], "normal_load": 4000.0}
+    assert np.allclose(fit.forces(**at).fy, tire.forces(**at).fy, rtol=0.02)
+    assert fit.measured["slip_ratio"].min() == -0.2
+
+
+@pytest.mark.parametrize("ratio", [0.05, -0.5])
+@pytest.mark.parametrize("version", ["5.2", "6.1"])
+def test_a_slip_ratio_that_stands_still_takes_nothing_off_the_side_force(ratio, version):
+    """At one slip ratio nothing tells what it takes off. A part was made up, and pure Fy grew by it."""
+    table, rng = sweep(), np.random.default_rng(2)
+    table["fy"] += rng.normal(0.0, 60.0, len(table))
+    plain = fit_magic_formula(table, version, starts=4)
+    held = fit_magic_formula(
+        table.assign(slip_ratio=ratio + rng.normal(0.0, 2e-4, len(table))), version, starts=4
+    )
+    at = {"slip_angle": [0.02, 0.1], "normal_load": 4000.0}
+    assert np.allclose(held.forces(**at).fy, plain.forces(**at).fy, rtol=1e-3)
+    assert "RBY1" not in held.standard_errors
+    assert any(f"slip_ratio is {ratio:g} throughout" in note for note in held.notes)
+
+
+def test_braking_at_one_slip_angle_gives_the_force_there():
+    table = braked([0.07])[0]
+    fit = fit_magic_formula(table, starts=4)
+    assert fit.relative_rms["fx"] < 0.01
+    assert "RBX1" not in fit.standard_errors
+    assert any("slip_angle is 0.07 throughout" in note for note in fit.notes)
 
 
 @pytest.mark.parametrize("by_pressure", [0.0, 3.0])

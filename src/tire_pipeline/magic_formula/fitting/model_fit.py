@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
@@ -19,7 +18,9 @@ from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
+from tire_pipeline.magic_formula.fitting.setup.checked import check_arguments
 from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_points
+from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
@@ -83,7 +84,14 @@ def fit_magic_formula(
     Raises
     ------
     RecordingError
-        If there is no load, no force or moment, or there are fewer than ten points.
+        If there is no load, no force or moment, or there are fewer than ten points; if a column holds text,
+        or is there twice. It names the channel and the row.
+    DomainError
+        If an argument is none that can be used; it names the argument.
+    TirValueError
+        If ``unloaded_radius`` is no tire's.
+    TirVersionError
+        If the version is not known.
 
     Warns
     -----
@@ -117,7 +125,8 @@ def fit_magic_formula(
     >>> bool(fit.relative_rms["fy"] < 1e-3)
     True
     """
-    points, forces, left_out, said = given.columns(recording)
+    check_arguments(start, nominal_load, unloaded_radius, starts, loss, seed)
+    points, forces, left_out, said = columns(recording, version)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
@@ -171,12 +180,12 @@ def _stages(
                 report.leave(f"no {output.capitalize()} measured", names)
                 continue
             chosen = given.choose(stage, points, forces[output])
-            if chosen.size < given.FEWEST_POINTS and output in TANGENTIAL_FORCES:
-                both = given.choose(replace(stage, points="combined"), points, forces[output])
-                if both.size >= given.FEWEST_POINTS:
+            if chosen.size < FEWEST_POINTS and output in TANGENTIAL_FORCES:
+                both, said = given.from_combined(stage, points, forces[output])
+                if both.size >= FEWEST_POINTS:
                     chosen = np.union1d(chosen, both)
-                    report.notes.append(f"{stage.title} was not measured: told from combined slip")
-            if chosen.size < given.FEWEST_POINTS:
+                    report.notes.append(said)
+            if chosen.size < FEWEST_POINTS:
                 why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
                 report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
                 continue
@@ -213,7 +222,8 @@ def _one_stage(
         chosen = np.union1d(chosen, given.braking_alone(points, forces[stage.output], chosen.size))
     here = {name: x[chosen] for name, x in points.items()}
     if stage.points in ("lateral", "longitudinal"):
-        here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
+        other = "slip_ratio" if stage.points == "lateral" else "slip_angle"
+        here[other] *= float(given.stands_off_zero(other, here, np.full(chosen.size, True)))
     measured = forces[stage.output][chosen]
     seeds, bar = _seeds(simpler, stage.output, here, measured)
     return fit_stage(stage, names, model, here, measured, ranges, options, seeds, bar)

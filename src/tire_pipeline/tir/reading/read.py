@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from tire_pipeline.errors import TirSyntaxError, TirValueError
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import check_stated_radius
 from tire_pipeline.tir.format.keys import (
     DIMENSION,
     FORCE_SECTIONS,
@@ -84,7 +85,8 @@ def read_tir(
         Empty, binary, over 5 MB, or without any Magic Formula coefficient.
     TirValueError
         A coefficient is not a number, is not finite, or has a value that the equations divide by (``FNOMIN =
-        0``, ``PCY1 = 0``); a unit is not known. With file, line and key. ``unloaded_radius`` is not positive.
+        0``, ``PCY1 = 0``); a unit is not known. With file, line and key. ``unloaded_radius`` is no
+        tire's: not positive, not finite, or in another unit than m.
     TirVersionError
         The version is unknown.
 
@@ -129,6 +131,9 @@ def read_tir(
 
 def _state_radius(reading: Reading, radius: float | None) -> None:
     """Use the caller's radius if the file has none, with a warning; warn if there is none at all."""
+    if radius is not None:
+        check_stated_radius(radius)
+        radius = float(radius)
     own = reading.coefficients.get("UNLOADED_RADIUS")
     if own is None and radius is None:
         reading.warnings.append(

@@ -1,14 +1,15 @@
-"""Inputs of a fit: the recording's points and forces, and the coefficients known beforehand."""
+"""Inputs of a fit: the coefficients known beforehand, and the points of each stage."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS, TANGENTIAL_FORCES
-from tire_pipeline.errors import RecordingError
+from tire_pipeline.channels import FORCE_OF_SLIP
+from tire_pipeline.magic_formula.fitting.setup.measured import bulk
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
     PURE_SLIP_ANGLE,
     PURE_SLIP_RATIO,
@@ -17,82 +18,7 @@ from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
-from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 from tire_pipeline.pages.numbers_in_words import in_digits
-
-FEWEST_POINTS = 10
-
-
-def columns(
-    recording: pd.DataFrame,
-) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, str], list[str]]:
-    """Return the points and the forces at them, by name, of whole rows; forces left out, and why; notes."""
-    if "normal_load" not in recording:
-        raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
-    wanted = [name for name in FORCE_CHANNELS if name in recording]
-    if not wanted:
-        raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
-    load = recording["normal_load"].to_numpy(dtype=float)
-    good = np.isfinite(load) & (load > 0)
-    points, notes = {}, []
-    for name in POINT_CHANNELS:
-        missing = np.nan if name in ("speed", "pressure") else 0.0
-        column = _numbers(recording, name) if name in recording else np.full(load.size, missing)
-        if name == "slip_ratio" and _locked(column):
-            notes.append("slip_ratio is -1 throughout, a locked wheel: taken as not measured, and as 0")
-            column = np.zeros(load.size)
-        if name in recording:
-            good &= np.isfinite(column)
-        points[name] = column
-    if int(good.sum()) < FEWEST_POINTS:
-        raise RecordingError(
-            f"only {int(good.sum())} points have a positive load and finite slips",
-            todo=f"use at least {FEWEST_POINTS}",
-        )
-    if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
-        raise RecordingError(
-            "neither slip_angle nor slip_ratio is recorded",
-            todo="name the columns slip_angle (rad) and slip_ratio: forces follow them",
-        )
-    forces, left_out = {}, {}
-    for name in wanted:
-        force = _numbers(recording, name)[good]
-        why = _not_measured(name, force)
-        if why:
-            left_out[name] = why
-        elif np.nanmax(np.abs(force)) > 0.0:
-            forces[name] = force
-    said = [f"{name} {why}" for name, why in left_out.items()]
-    if not forces:
-        raise RecordingError(
-            "no force or moment was measured" + (f": {', '.join(said)}" if said else ""),
-            todo="check that the sensor was on, and the unit",
-        )
-    notes += [f"{text}: not fitted" for text in said]
-    return {name: x[good].copy() for name, x in points.items()}, forces, left_out, notes
-
-
-def _numbers(recording: pd.DataFrame, name: str) -> np.ndarray:
-    """Return a column; NaN where its square is no number, as nothing can be fitted to it."""
-    x = recording[name].to_numpy(dtype=float)
-    with np.errstate(over="ignore", invalid="ignore"):
-        return np.where(np.isfinite(x * x), x, np.nan)
-
-
-def _locked(slip_ratio: np.ndarray) -> bool:
-    """Whether the wheel is locked in every row: rigs write -1 where they do not measure the slip."""
-    known = slip_ratio[np.isfinite(slip_ratio)]
-    return bool(known.size) and bool((known == -1.0).all())
-
-
-def _not_measured(name: str, force: np.ndarray) -> str:
-    """Return why a column is not a measurement; empty if it may be one."""
-    known = force[np.isfinite(force)]
-    if known.size == 0:
-        return "holds no number"
-    if name in TANGENTIAL_FORCES and np.ptp(known) == 0.0 and known[0] != 0.0:
-        return f"is {in_digits(known[0], 4)} N throughout"
-    return ""
 
 
 def base(
@@ -160,11 +86,46 @@ def choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray)
         which &= rolling
     elif stage.points == "longitudinal":
         which &= straight
-        if not (which & ~rolling).any():
+        if not (which & ~rolling).any() or stands_off_zero("slip_ratio", points, which):
             which &= False
     elif stage.points == "combined":
-        which &= ~rolling & ~straight
+        relies_on = tuple(FORCE_OF_SLIP) if stage.output == "fx" else ("slip_ratio",)
+        held = [stands_off_zero(name, points, which) for name in relies_on]
+        which &= ~rolling & ~straight & (not any(held))
     return np.flatnonzero(which)
+
+
+def from_combined(
+    stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray
+) -> tuple[np.ndarray, str]:
+    """Return the rows at combined slip that tell of a stage at pure slip, and what is said of it.
+
+    Where the other slip stands still, nothing tells its part in the force. Then there are all rows, and the
+    force is that at this slip.
+    """
+    which = np.isfinite(measured)
+    other = "slip_angle" if stage.points == "longitudinal" else "slip_ratio"
+    if stage.points == "combined" or not stands_off_zero(other, points, which):
+        both = choose(replace(stage, points="combined"), points, measured)
+        return both, f"{stage.title} was not measured: told from combined slip"
+    if stage.points == "longitudinal" and stands_off_zero("slip_ratio", points, which):
+        which &= False
+    at = in_digits(float(np.median(points[other][which]))) if which.any() else ""
+    said = f"{other} is {at} throughout, and {stage.output.capitalize()} there is taken for that without it"
+    return np.flatnonzero(which), f"{stage.title} was not measured: {said}"
+
+
+def stands_off_zero(name: str, points: Mapping[str, np.ndarray], which: np.ndarray) -> bool:
+    """Whether a slip stays at one value other than zero, but for odd rows.
+
+    Then the force without this slip cannot be told from its part in the force: a slip that was not measured,
+    or measured with another rolling radius, would double the force at pure slip.
+    """
+    if not which.any():
+        return False
+    within = PURE_SLIP_RATIO if name == "slip_ratio" else PURE_SLIP_ANGLE
+    low, high = bulk(points[name][which])
+    return min(abs(low), abs(high)) > within and high - low <= within
 
 
 def pure(points: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
