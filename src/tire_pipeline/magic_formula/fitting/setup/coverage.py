@@ -24,10 +24,9 @@ _STEP_OF_LEVELS = 0.2
 """Step of load, over the nominal one, from one level to the next."""
 MIN_CAMBER = np.deg2rad(0.4)
 MIN_PRESSURE_SPREAD = 0.05
-"""Spread of pressures, over the median, from which they count as different. A rig that holds one pressure lets
-it ripple by 0.02 to 0.04 as load and slip change. Tires differ by 0.4 in the power of pressure that stiffness
-goes with (``SPREAD``), so that below half of 0.05 around the middle they differ by less than 1% in force: the
-error of the formula itself (``FORMULA_ERROR``)."""
+"""Spread of pressures, over the median, from which they count as different. A rig that holds one pressure
+lets it ripple by 0.02 to 0.04 as load and slip change. Stiffness goes with a power of pressure in which tires
+differ by 0.4 (``SPREAD``): half of 0.05 either side changes the force by less than a formula's own error."""
 MIN_SPEED_SPREAD = 0.1
 MIN_SLIP = 0.01
 NO_CAMBER = "no camber sweeps"
@@ -111,8 +110,8 @@ def _one_sided(slip: np.ndarray) -> bool:
 def noise_alone(names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float) -> set[str]:
     """Return the coefficients whose input varies by no more than its noise: it determines nothing.
 
-    The ripple of one set pressure goes along with load and slip. Coefficients of pressure that are freed by it
-    take up errors of the formula, and are far off at another pressure.
+    The ripple of one set pressure goes along with load and slip. Coefficients of pressure that are freed by
+    it take up errors of the formula, and are far off at another pressure.
     """
     barely = open_coefficients(names, points, nominal_load, BARELY)
     found = {name for reason in (NO_CAMBER, *RANGES) for name in barely.get(reason, ())}
