@@ -129,8 +129,12 @@ class _StageProblem:
         """Return where searches start: a number of random points, and the seeds."""
         begin = np.array([self.first[n] for n in problem.names])
         drawn = starting_points(begin, bounds, problem.pull.spread, number, self.rng)
-        more = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
-        return [*drawn, *(np.clip(values, *bounds) for values in more)]
+        return [*drawn, *self.simpler(problem, bounds)]
+
+    def simpler(self, problem: Problem, bounds: Bounds) -> list[np.ndarray]:
+        """Return the values that the seeds have."""
+        values = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
+        return [np.clip(x, *bounds) for x in values]
 
     def search(self, free: Sequence[str], number: int, begin: Sequence[np.ndarray] = ()) -> _StageSearch:
         """Search over these from random starts, the seeds, and others."""
@@ -220,7 +224,8 @@ def fit_stage(
     problem, bounds, free = found.problem, found.bounds, list(found.problem.names)
     most = max(min((1.0 + SLACK) * lowest, bar), found.left, exact)
     held = np.isin(free, sorted(known))
-    values = most_typical(problem, bounds, found.values, options.loss, most, held)
+    simpler = setup.simpler(problem, bounds)
+    values = most_typical(problem, bounds, found.values, options.loss, most, held, simpler)
     kept = {
         reason: {n: typical[n] for n in group if n not in free}
         for reason, group in closed.items()

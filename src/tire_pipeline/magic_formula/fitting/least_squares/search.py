@@ -96,6 +96,7 @@ def most_typical(
     loss: str,
     most: float,
     held: np.ndarray,
+    others: Sequence[np.ndarray] = (),
 ) -> np.ndarray:
     """Return, of the fits that leave no more than ``most``, the one that is most like a tire.
 
@@ -110,6 +111,8 @@ def most_typical(
         RMS.
     held : ndarray of bool
         Coefficients that the recording's ranges cannot determine; they leave their typical values last.
+    others : sequence of ndarray
+        More fits to choose from, such as that of a simpler formula.
 
     Returns
     -------
@@ -132,7 +135,7 @@ def most_typical(
     eased = [problem.pull.centre]
     for pull in pulls:
         eased.append(solved(thin, pull, eased[-1], 1e-5))
-    found = [best]
+    found = [best, *(values for values in others if problem.left(values) <= most)]
     for own in (best, solved(problem, pulls[-1], eased[-1], 1e-7)):
         limit = min(most, (1.0 + _ADDED_BY_PULL) * problem.misfit(own))
         rough = limit * thin.misfit(own) / max(problem.misfit(own), 1e-300)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tire_pipeline.channels import ANGLE_CHANNELS, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.pages.numbers_in_words import in_digits
@@ -20,12 +21,20 @@ _BACKWARDS = -1.2
 """A locked wheel has -1, less its noise; below that it would turn backwards."""
 _MOST_FRICTION = 6.0
 """Largest force over load; racing tires at small loads reach 3, sensors near no load a little more."""
+_NO_FRICTION = 0.03
+"""Largest force over load below which a poor fit is one of another unit: wet ice has 0.1."""
+_SOFT_FRICTION, _SOFT_STIFFNESS = 0.35, 8.0
+"""Friction, and slip stiffness over load, that no tire has both. One for trucks has a stiffness of 5, but a
+friction of 0.7 (16 public files); on snow and ice, where friction is as low, the stiffness stays."""
 _FOLLOWS = 0.3
-"""Share of the force over load that the slip has to explain."""
+"""Share of the force over load that the slip has to explain; correlation of the larger forces with load."""
+_ONE_SIGN, _NO_SIGN = 0.8, 0.4
+"""Agreement in sign of force and slip from which the slip stiffness has one sign, and below which it has
+none, whatever a fit leaves."""
+_LOADS_DIFFER = 0.3
+"""Spread of loads, over the middle one, from which the larger forces have to follow it."""
 _SLIP_BINS = 20
-_SMALL_SLIPS = 0.4
-"""Share of the largest slips below which the slope of the force is looked at."""
-_FEWEST_IN_GROUP = 10
+_ROWS_OF_BIN = 5
 
 
 class PoorFitWarning(UserWarning):
@@ -65,6 +74,7 @@ def poor_outputs(
     fitted: set[str],
     start: TireModel | None,
     at_bound: Collection[str] = (),
+    inputs: str = "",
 ) -> dict[str, str]:
     """Return, for each implausible output, what is wrong and the likely reason.
 
@@ -82,6 +92,8 @@ def poor_outputs(
         Its sign of the slip stiffness is the tire's own.
     at_bound : collection of str
         Coefficients that ended at the bound of what tires have.
+    inputs : str
+        What no tire has of load, pressure and radius, as a likely reason; or nothing.
 
     Returns
     -------
@@ -92,47 +104,76 @@ def poor_outputs(
         wrong = []
         if shares[output] > MOST_LEFT:
             wrong.append(f"the fit leaves {100 * shares[output]:.0f}% of the largest magnitude")
-        units = _units(output, points, forces[output]) or _level_units(output, at_bound)
-        if units and not wrong:
-            wrong.append("no tire is like that")
+        seen = _measured(output, points, forces[output])
         if output in TANGENTIAL_FORCES and (
-            _falls(model, output, points, start) or _turned(output, points, forces[output], start)
+            _falls(model, output, points, start) or _turned(output, seen, start)
         ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
+        units, levels = _units(output, points, seen) or inputs, _levels(model, output, at_bound)
+        if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
+            wrong.append("no tire is like that")
         if wrong:
-            found[output] = f"{'; '.join(wrong)}. {units or _reason(output, points, forces[output], start)}"
+            reason = units or _signs(output, seen, start) or _strange(output, seen) or levels or _ELSE
+            found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
 
 
-def _level_units(output: str, at_bound: Collection[str]) -> str:
+class _Measured(NamedTuple):
+    """An output where it was measured, and the slip and the load there, each of shape (n,)."""
+
+    slip: np.ndarray
+    load: np.ndarray
+    force: np.ndarray
+
+
+def _measured(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) -> _Measured:
+    good = np.isfinite(measured)
+    slip = points[SLIP_OF_FORCE.get(output, "slip_angle")]
+    return _Measured(slip[good], points["normal_load"][good], measured[good])
+
+
+def _levels(model: TireModel, output: str, at_bound: Collection[str]) -> str:
     """Return which units to check if no tire has such a friction or slip stiffness."""
-    letter = output[1].upper()
-    if output in TANGENTIAL_FORCES and f"PD{letter}1" in at_bound:
+    if output not in TANGENTIAL_FORCES:
+        return ""
+    letter, slip = output[1].upper(), SLIP_OF_FORCE[output]
+    unit = "radians" if output == "fy" else "a ratio, no percent"
+    look = f"look at those of {slip} ({unit}), {output} and normal_load"
+    for name, what in ((f"PD{letter}1", "friction"), (f"PK{letter}1", "the slip stiffness")):
+        if name in at_bound:
+            low, high, _ = BOUNDS[name]
+            least = abs(model.value(name)) < 0.5 * min(abs(high), high - low)
+            return f"units; {what} is {'below' if least else 'beyond'} any tire's, {look}."
+    friction = abs(model.value(f"PD{letter}1"))
+    load = model.value("FNOMIN")
+    name = "slip_stiffness" if output == "fx" else "cornering_stiffness"
+    forces = model.forces(normal_load=load, limits="ignore", outputs=(name,))
+    stiffness = abs(float(getattr(forces, name))) / load
+    if 0.0 < friction < _SOFT_FRICTION and stiffness < _SOFT_STIFFNESS:
         return (
-            f"Likely reason: units; friction is beyond any tire's, look at those of {output} and normal_load."
-        )
-    if output in TANGENTIAL_FORCES and f"PK{letter}1" in at_bound:
-        slip = SLIP_OF_FORCE[output]
-        unit = "radians" if output == "fy" else "a ratio, no percent"
-        return (
-            "Likely reason: units; the slip stiffness is beyond any tire's, look at those of "
-            f"{slip} ({unit}), {output} and normal_load."
+            f"units; friction of {in_digits(friction)} and a slip stiffness of {in_digits(stiffness)} times "
+            f"the load are both below any tire's, {look} (newtons)."
         )
     return ""
 
 
-def _turned(
-    output: str, points: Mapping[str, np.ndarray], measured: np.ndarray, start: TireModel | None
-) -> bool:
-    """Whether the measured force falls with slip, in the tire's own convention, at every load and camber."""
+def _agreement(slip: np.ndarray, force: np.ndarray) -> float:
+    """Return 1 where force and slip have one sign at every point, -1 where they have opposite ones."""
+    product = slip * force
+    total = float(np.abs(product).sum())
+    return float(product.sum()) / total if total > 0.0 else 0.0
+
+
+def _turned(output: str, seen: _Measured, start: TireModel | None) -> bool:
+    """Whether the measured force has the other sign, and the other slope, than the tire's own convention.
+
+    Beyond its largest value the force falls with slip; and with an offset of the slip it has the other sign.
+    """
     own = 1.0 if output == "fx" else None if start is None else _sign_of(output, start)
-    if own is None:
+    if own is None or seen.force.size == 0:
         return False
-    good = np.isfinite(measured)
-    names = (SLIP_OF_FORCE[output], "normal_load", "camber")
-    slip, load, camber = (points[name][good] for name in names)
-    slopes = _slopes(slip, measured[good], load, camber)
-    return bool(slopes.size) and bool((own * slopes < 0.0).all())
+    slope = _agreement(seen.slip - np.median(seen.slip), seen.force - np.median(seen.force))
+    return own * _agreement(seen.slip, seen.force) < -_ONE_SIGN and own * slope < -0.5
 
 
 def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], start: TireModel | None) -> bool:
@@ -150,72 +191,84 @@ def _sign_of(output: str, tire: TireModel) -> float:
     return 1.0 if output == "fx" else float(np.sign(tire.coefficients.get("PKY1", -1.0)))
 
 
-def _units(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) -> str:
+def _units(output: str, points: Mapping[str, np.ndarray], seen: _Measured) -> str:
     """Return which channel's unit is wrong, or nothing."""
     for angle in ANGLE_CHANNELS:
         if np.abs(points[angle]).max() > LOOKS_LIKE_DEGREES:
-            return f"Likely reason: units; {angle} looks like degrees, it has to be in radians."
+            return f"units; {angle} looks like degrees, it has to be in radians."
     if np.abs(points["slip_ratio"]).max() > _PERCENT or np.quantile(points["slip_ratio"], 0.02) < _BACKWARDS:
-        return "Likely reason: units; slip_ratio looks like percent, it has to be a ratio."
-    friction = float(np.nanquantile(np.abs(measured) / points["normal_load"], 0.98))
-    if output in TANGENTIAL_FORCES and friction > _MOST_FRICTION:
+        return "units; slip_ratio looks like percent, it has to be a ratio."
+    if output in TANGENTIAL_FORCES and _friction(seen) > _MOST_FRICTION:
         return (
-            f"Likely reason: units; {output} reaches {in_digits(friction)} times the load, "
+            f"units; {output} reaches {in_digits(_friction(seen))} times the load, "
             f"look at the units of {output} and normal_load (newtons)."
         )
     return ""
 
 
-def _reason(
-    output: str, points: Mapping[str, np.ndarray], measured: np.ndarray, start: TireModel | None
-) -> str:
-    """Return the likely reason in a sentence that says what to look at."""
+def _friction(seen: _Measured) -> float:
+    """Return the largest force over the load but for odd samples."""
+    return float(np.quantile(np.abs(seen.force) / seen.load, 0.98)) if seen.force.size else 0.0
+
+
+def _signs(output: str, seen: _Measured, start: TireModel | None) -> str:
+    """Return what is wrong with the signs of a poor fit, or nothing."""
     name = SLIP_OF_FORCE.get(output, "slip_angle")
-    good = np.isfinite(measured)
-    slip, load, force = points[name][good], points["normal_load"][good], measured[good]
-    slopes = _slopes(slip, force, load, points["camber"][good])
-    if output in TANGENTIAL_FORCES and _turned(output, points, measured, start):
+    if output in TANGENTIAL_FORCES and _turned(output, seen, start):
         whose = "the start model's" if output == "fy" else "a tire's (braking: negative slip_ratio and fx)"
-        return f"Likely reason: axes or signs; {output} over {name} has the other sign than {whose}."
-    if (slopes > 0.0).any() and (slopes < 0.0).any():
+        return f"axes or signs; {output} over {name} has the other sign than {whose}."
+    if _lost_sign(output, seen, _ONE_SIGN):
         return (
-            f"Likely reason: signs; {output} over {name} has one sign at some loads or cambers "
-            "and the other at others, as if axes changed within the recording."
+            f"signs; the size of {output} follows that of {name}, its sign does not, as if axes changed "
+            "within the recording or one of the two had lost its sign."
         )
-    if _explained(slip, force / load) < _FOLLOWS:
-        return (
-            f"Likely reason: a channel that does not belong; {output} hardly follows {name} "
-            "(another wheel, another run, or a shift in time)."
-        )
-    return (
-        "Likely reason: something that a steady Magic Formula does not know (transients, temperature, a "
-        "channel in other units, axes or time than the rest); see the residuals by load and camber."
-    )
+    return ""
 
 
-def _slopes(slip: np.ndarray, force: np.ndarray, load: np.ndarray, camber: np.ndarray) -> np.ndarray:
-    """Return the slope of the force over the smaller slips at each load and camber."""
-    reach = _SMALL_SLIPS * float(np.quantile(np.abs(slip), 0.98))
-    small = np.abs(slip) <= reach
-    group = 1000.0 * np.round(load / (0.25 * np.median(load))) + np.round(np.degrees(camber))
-    found = []
-    for value in np.unique(group[small]):
-        x, y = slip[small & (group == value)], force[small & (group == value)]
-        if x.size >= _FEWEST_IN_GROUP and np.ptp(x) > 0.5 * reach:
-            slope, level = np.polyfit(x, y, 1)
-            left = np.sum((y - level - slope * x) ** 2) / max(x.size - 2, 1)
-            if slope**2 * np.sum((x - x.mean()) ** 2) > 16.0 * left:  # four standard errors
-                found.append(slope)
-    return np.array(found)
+def _lost_sign(output: str, seen: _Measured, least: float) -> bool:
+    """Whether the size of a force grows with that of the slip, but agrees in sign by less than ``least``."""
+    if output not in TANGENTIAL_FORCES or abs(_agreement(seen.slip, seen.force)) >= least:
+        return False
+    size, slip = np.abs(seen.force / seen.load), np.abs(seen.slip)
+    return _explained(slip, size) > _FOLLOWS and float(np.corrcoef(slip, size)[0, 1]) > _FOLLOWS
+
+
+def _strange(output: str, seen: _Measured) -> str:
+    """Return which channel of a poor fit does not belong to the others, or nothing."""
+    name = SLIP_OF_FORCE.get(output, "slip_angle")
+    where = "(another wheel, another run, or a shift in time)."
+    if _explained(seen.slip, seen.force / seen.load) < _FOLLOWS:
+        return f"a channel that does not belong; {output} hardly follows {name} {where}"
+    if output not in TANGENTIAL_FORCES:
+        return ""
+    if _friction(seen) < _NO_FRICTION:
+        return (
+            f"units; {output} reaches no more than {in_digits(_friction(seen))} times the load, "
+            f"look at the units of {output} and normal_load (newtons)."
+        )
+    large = np.abs(seen.slip) >= np.median(np.abs(seen.slip))
+    load, force = seen.load[large], np.abs(seen.force[large])
+    differ = np.ptp(np.quantile(load, [0.02, 0.98])) > _LOADS_DIFFER * np.median(load)
+    if differ and np.ptp(force) > 0.0 and np.corrcoef(load, force)[0, 1] < _FOLLOWS:
+        return f"a channel that does not belong; {output} hardly follows normal_load {where}"
+    return ""
+
+
+_ELSE = (
+    "something that a steady Magic Formula does not know (transients, temperature, a channel in other units, "
+    "axes or time than the rest); see the residuals by load and camber."
+)
 
 
 def _explained(slip: np.ndarray, normalised: np.ndarray) -> float:
-    """Return the share of the variance that lies between bins of the slip."""
-    edges = np.unique(np.quantile(slip, np.linspace(0.0, 1.0, _SLIP_BINS + 1)))
-    total = float(np.var(normalised))
+    """Return the share of the variance that lies between bins of the slip, less what chance puts there."""
+    number = min(_SLIP_BINS, slip.size // _ROWS_OF_BIN)
+    edges = np.unique(np.quantile(slip, np.linspace(0.0, 1.0, number + 1))) if number > 1 else np.empty(0)
+    total = float(np.var(normalised)) if slip.size else 0.0
     if edges.size < 3 or total == 0.0:
         return 0.0
     bins = np.clip(np.searchsorted(edges, slip, side="right") - 1, 0, edges.size - 2)
     count = np.bincount(bins)
     mean = np.bincount(bins, normalised) / np.maximum(count, 1)
-    return float(np.sum(count * (mean - normalised.mean()) ** 2) / (normalised.size * total))
+    share = float(np.sum(count * (mean - normalised.mean()) ** 2) / (normalised.size * total))
+    return 1.0 - (1.0 - share) * (slip.size - 1) / (slip.size - np.count_nonzero(count))
