@@ -17,7 +17,7 @@ from weighed import all_but, without_visible
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
-from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
+from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import by_condition
@@ -26,7 +26,9 @@ from tire_pipeline.mismatch.unnamed_physics.prove import judged
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
 from tire_pipeline.tir import read_tir
 
-READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
+ROOT = Path(__file__).parents[3]
+READER = ROOT / "examples" / "read_unnamed.py"
+DOCS = ROOT / "docs" / "reference" / "unnamed_physics.md"
 EQUATIONS = (
     "0.012*fy*v^2/L",
     "(-3.1)*fy*(g^2)*(L) + 0.2*F0*L*(L^2)",
@@ -300,6 +302,33 @@ def test_the_page_and_the_dictionary_show_it_apart_from_ideas(on_a_drum, tmp_pat
     told = report.to_dict()["unnamed"]
     assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
     assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]
+
+
+def test_a_page_without_an_equation_has_nothing_as_good_and_no_line(on_a_drum, tmp_path):
+    report = without_visible(on_a_drum[1])
+    found = replace(report.unnamed, alternatives=[Alternative({"fy": "0.1*fy*v"}, ("speed",), 9.0)])
+    pages = {}
+    for name, unnamed in (("with", found), ("without", found.refused("it predicts no better"))):
+        told = replace(report, unnamed=unnamed)
+        pages[name] = told.to_html(tmp_path / f"{name}.html").read_text("utf-8")
+    claims = ("Equally good", "The line should go", "Nothing points to", "95% intervals")
+    assert all(words in pages["with"] for words in claims[:2])
+    assert not [words for words in claims if words in pages["without"]]
+    assert "No equation is in the corrected model: it predicts no better" in pages["without"]
+    assert "Possible drivers" in pages["without"]
+
+
+def test_where_nothing_is_found_the_report_says_why_and_the_documented_lines_run(tire, record, tmp_path):
+    """``agrees`` has drivers with evidence, too: odds alone do not say that nothing is there."""
+    agreeing = explain_mismatch(tire, record(9).iloc[:1500])
+    assert agreeing.verdict == "agrees"
+    lines = re.search(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)[1]
+    exec(compile(lines, DOCS.name, "exec"), {"report": agreeing})
+    assert agreeing.unnamed.physics is None
+    assert agreeing.unnamed.why_not
+    assert agreeing.to_dict()["unnamed"]["why_not"] == agreeing.unnamed.why_not
+    page = without_visible(agreeing).to_html(tmp_path / "agrees.html").read_text("utf-8")
+    assert "Unnamed physics" not in page, "nothing asks for an equation"
 
 
 def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):

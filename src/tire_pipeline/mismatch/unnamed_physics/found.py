@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -243,6 +243,8 @@ class UnnamedReport:
     ideas : list of Idea
     instead_of : tuple of str
         Effects whose names it replaces: it leaves less on unseen sweeps than they do.
+    looked_for : bool
+        Whether an equation was looked for.
     curve : dict of list
         ``x`` (driver or term), ``left`` and ``fitted`` by bins, for the figure.
     """
@@ -262,4 +264,9 @@ class UnnamedReport:
     p_value: float = 1.0
     ideas: list[Idea] = field(default_factory=list)
     instead_of: tuple[str, ...] = ()
+    looked_for: bool = True
     curve: dict[str, Any] = field(default_factory=dict)
+
+    def refused(self, why: str) -> UnnamedReport:
+        """Return the same without its equation, and without what rests on that."""
+        return replace(self, physics=None, why_not=why, independent_of={})
