@@ -182,6 +182,8 @@ def on_a_drum(tire, record):
 def test_an_equation_is_in_the_corrected_model_and_makes_it_better(on_a_drum):
     recording, report = on_a_drum
     assert report.unnamed.physics.depends_on == ("path",)
+    assert "time" not in report.unnamed.independent_of, "the way rolled goes with it"
+    assert max(report.unnamed.drivers.values()) <= 1.0
     named = replace(report.corrected, unnamed=None).predict(recording)
     with_it = report.corrected.predict(recording)
     left = {n: np.std(recording["fy"] - f["fy"]) for n, f in (("named", named), ("all", with_it))}

@@ -88,19 +88,22 @@ def ruled_out(parts: Sequence[ChosenEquation]) -> dict[str, float]:
     """Return recorded channels that the residual does not depend on, with their probability, least first.
 
     Channels that vary and that the library has; not camber of +c and -c, whose size nothing was compared
-    with. A memory of a channel counts as the channel.
+    with. A memory of a channel counts as the channel, and the way rolled as time.
     """
     columns, moves = parts[0].columns, parts[0].columns.problem.moves
     factors = now_factors(moves)
     known = frozenset[str]().union(*(f.drivers for f in factors)) | ({"time"} & moves)
     known = known.difference(*(f.drivers for f in factors if is_constant(columns, f)))
-    found = {c: _probability(parts, frozenset({c, f"memory of {c}"})) for c in sorted(known)}
+    found = {
+        c: _probability(parts, frozenset({c, f"memory of {c}", *({"path"} if c == "time" else ())}))
+        for c in sorted(known)
+    }
     return dict(sorted(((c, p) for c, p in found.items() if p < CHANCE), key=lambda item: item[1]))
 
 
 def _probability(parts: Sequence[ChosenEquation], drivers: frozenset[str]) -> float:
     """The probability that one of some drivers is in a set: the largest of the searches."""
-    return max(sum((p for key, p in part.posterior.items() if key & drivers), 0.0) for part in parts)
+    return max(min(sum((p for k, p in part.posterior.items() if k & drivers), 0.0), 1.0) for part in parts)
 
 
 def intervals(part: ChosenEquation) -> dict[str, list[CoefficientInterval]]:
