@@ -58,13 +58,13 @@ def _value(text, table, clock):
 
 def _added(entry, table):
     known = entry["format"] == "unnamed physics 1" and set(entry["equation"]) <= {"fx", "fy"}
-    usual = median(steps := [b - a for a, b in pairwise(table["time"])] if known else sys.exit("no format"))
+    size = len(next(iter(table.values()))) if known else sys.exit("no format")
+    usual = median(steps := [b - a for a, b in pairwise(table.get("time", [math.nan] * size))])
     starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]
     steps = [0.0 if start else d for start, d in zip(starts, [0.0, *steps], strict=True)]
-    ways = [d * abs(v) for d, v in zip(steps, table.get("speed", [0.0] * len(steps)), strict=True)]
-    nominal = {name: [float(v)] * len(steps) for name, v in entry["nominal"].items()}
-    table = {**nominal, "way": list(accumulate(ways)), **table}
-    clock = list(zip(steps, ways, starts, strict=True))
+    ways = [d * abs(v) for d, v in zip(steps, table.get("speed", [math.nan] * size), strict=True)]
+    table = {n: [float(v)] * size for n, v in entry["nominal"].items()} | {"way": [*accumulate(ways)]} | table
+    clock = list(zip(steps, ways, starts, strict=True)) if "time" in table else [()] * size
     out = {o: _value(text, table, clock) for o, text in entry["equation"].items()}
     for symbol, (low, high) in entry["range"].items():
         width = max(entry["fade"][symbol] * (high - low), 1e-12)

@@ -120,7 +120,7 @@ def explain_recordings(
 def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -> MismatchReport:
     """Return the report, without its equation where that predicts a held-out recording no better."""
     found, equation = report.unnamed, report.corrected.unnamed
-    if found is None or equation is None:
+    if equation is None:
         return report
     named = replace(report.corrected, unnamed=None)
     with_it, plain = (predict_held_out(m, recording, name).errors for m in (report.corrected, named))
@@ -132,7 +132,7 @@ def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -
         report,
         corrected=named,
         fit=fit,
-        unnamed=replace(found, physics=None, why_not=f"it predicts {name}, which was held out, no better"),
+        unnamed=found.refused(f"it predicts {name}, which was held out, no better"),
         head=without_equation(report.head, report.verdict, report.effects, fit),
     )
 

@@ -1,23 +1,18 @@
 """Unnamed physics: the grammar, its reader, hostile sidecars, and what is found and proved."""
 
-import csv
-import json
 import re
-import subprocess
-import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
-from unnamed_problem import NOMINAL, by_memory, by_speed, jolt, nothing, problem, swinging, table
+from unnamed_problem import NOMINAL, by_memory, by_speed, jolt, nothing, physics, problem, swinging, table
 from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
-from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
+from tire_pipeline.mismatch.unnamed_physics.found import Alternative, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import by_condition
@@ -26,74 +21,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import judged
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
 from tire_pipeline.tir import read_tir
 
-READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
-EQUATIONS = (
-    "0.012*fy*v^2/L",
-    "(-3.1)*fy*(g^2)*(L) + 0.2*F0*L*(L^2)",
-    "0.4*fy*(lag(v*(abs(s*fy) + abs(k*fx))/F0, 7.4))",
-    "0.1*fy_slip*(play(fy/(F0*L), 0.15) - fy/(F0*L))",
-    "0.05*fx*sin(way/0.85) - 0.01*fx*cos(way/0.85)",
-    "fy*highest(abs(s))*exp(-tanh(L))*sqrt(p) + lagway(s, 0.4)*2e2 - -h^3",
-)
-
-
-def physics(text, ranges=None):
-    return UnnamedPhysics({"fy": text}, ("speed",), "force", ranges or {"v": (0.8, 1.2)}, NOMINAL)
-
-
-def as_read(entry, folder):
-    """What the example reader says of an entry; its exit code is not 0 where it refuses."""
-    columns, channels, time = table()
-    sidecar, symbols = folder / "tire.tir.sidecar.json", folder / "symbols.csv"
-    sidecar.write_text(json.dumps({"effects": {"unnamed": entry}}))
-    names = {n: columns.columns[n] for n in columns.columns if n not in {*asdict(NOMINAL), "way"}}
-    pd.DataFrame({**names, "time": time, "speed": channels["speed"]}).to_csv(symbols, index=False)
-    command = [sys.executable, "-I", str(READER), str(sidecar), str(symbols)]
-    return subprocess.run(command, check=False, capture_output=True, text=True)
-
-
-@pytest.mark.parametrize("text", EQUATIONS)
-def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
-    found = physics(text)
-    said = as_read(found.to_sidecar(), tmp_path).stdout
-    read = np.array([float(row["fy"]) for row in csv.DictReader(said.splitlines())])
-    own = found.change(table()[0])["fy"]
-    assert np.max(np.abs(own)) > 1.0
-    np.testing.assert_allclose(read, own, rtol=1e-9, atol=1e-9 * np.max(np.abs(own)))
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"equation": {"fy": text}}
-        for text in (
-            "fy*v) + 1",
-            "fy 5",
-            "2^9^9",
-            "open(fy)",
-            "*(fy)",
-            "abs(fy, 3)",
-            "play(fy)",
-            "lag(fy, inf)",
-            "1e999*fy",
-            "1e99^9*fy - 1e99^9*fy",
-            "fy/(v - v)",
-            "(" * 900 + "fy" + ")" * 900,
-            "+".join(["fy"] * 2000),
-        )
-    ]
-    + [{"equation": {"mz": "fy"}}, {"format": "other"}, {"range": {"v": [float("nan"), 1.0]}}],
-)
-def test_the_reader_refuses_what_is_not_of_the_grammar_or_not_finite(change, tmp_path):
-    found = as_read({**physics("0.1*fy*v").to_sidecar(), **change}, tmp_path)
-    assert found.returncode != 0
-    assert not found.stdout
-
-
-def test_the_reader_is_short_and_evaluates_nothing():
-    lines = READER.read_text(encoding="utf-8").splitlines()
-    assert len(lines) <= 80
-    assert not any(word in "\n".join(lines) for word in ("eval(", "exec(", "__import__"))
+DOCS = Path(__file__).parents[3] / "docs" / "reference" / "unnamed_physics.md"
 
 
 @pytest.mark.parametrize(
@@ -254,6 +182,8 @@ def on_a_drum(tire, record):
 def test_an_equation_is_in_the_corrected_model_and_makes_it_better(on_a_drum):
     recording, report = on_a_drum
     assert report.unnamed.physics.depends_on == ("path",)
+    assert "time" not in report.unnamed.independent_of, "the way rolled goes with it"
+    assert max(report.unnamed.drivers.values()) <= 1.0
     named = replace(report.corrected, unnamed=None).predict(recording)
     with_it = report.corrected.predict(recording)
     left = {n: np.std(recording["fy"] - f["fy"]) for n, f in (("named", named), ("all", with_it))}
@@ -300,6 +230,33 @@ def test_the_page_and_the_dictionary_show_it_apart_from_ideas(on_a_drum, tmp_pat
     told = report.to_dict()["unnamed"]
     assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
     assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]
+
+
+def test_a_page_without_an_equation_has_nothing_as_good_and_no_line(on_a_drum, tmp_path):
+    report = without_visible(on_a_drum[1])
+    found = replace(report.unnamed, alternatives=[Alternative({"fy": "0.1*fy*v"}, ("speed",), 9.0)])
+    pages = {}
+    for name, unnamed in (("with", found), ("without", found.refused("it predicts no better"))):
+        told = replace(report, unnamed=unnamed)
+        pages[name] = told.to_html(tmp_path / f"{name}.html").read_text("utf-8")
+    claims = ("Equally good", "The line should go", "Nothing points to", "95% intervals")
+    assert all(words in pages["with"] for words in claims[:2])
+    assert not [words for words in claims if words in pages["without"]]
+    assert "No equation is in the corrected model: it predicts no better" in pages["without"]
+    assert "Possible drivers" in pages["without"]
+
+
+def test_where_nothing_is_found_the_report_says_why_and_the_documented_lines_run(tire, record, tmp_path):
+    """``agrees`` has drivers with evidence, too: odds alone do not say that nothing is there."""
+    agreeing = explain_mismatch(tire, record(9).iloc[:1500])
+    assert agreeing.verdict == "agrees"
+    lines = re.search(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)[1]
+    exec(compile(lines, DOCS.name, "exec"), {"report": agreeing})
+    assert agreeing.unnamed.physics is None
+    assert agreeing.unnamed.why_not
+    assert agreeing.to_dict()["unnamed"]["why_not"] == agreeing.unnamed.why_not
+    page = without_visible(agreeing).to_html(tmp_path / "agrees.html").read_text("utf-8")
+    assert "Unnamed physics" not in page, "nothing asks for an equation"
 
 
 def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):

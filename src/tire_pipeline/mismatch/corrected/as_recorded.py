@@ -179,6 +179,5 @@ def never_worse(
     with_it, without = put_in.predict(recording), corrected.predict(recording)
     for o in found.physics.equations:
         if rms(recording[o] - with_it[o]) >= rms(recording[o] - without[o]):
-            why = "it predicts the rows as they were recorded no better"
-            return replace(found, physics=None, why_not=why), corrected
+            return found.refused("it predicts the rows as they were recorded no better"), corrected
     return found, put_in

@@ -52,6 +52,8 @@ from tire_pipeline.progress import under_way
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
+_SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
+_AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
 _TO_DO = {
     "undecided": "Explain a recording with more channels, or one that the model was fitted to.",
     "unexplained": "Record the same sweeps again, and then with one channel changed at a time: what repeats "
@@ -105,7 +107,7 @@ def assembled(it: Explained) -> MismatchReport:
     spoiled = any(finding.bad is not None for finding in prepared.findings)
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
-    if unnamed is not None and unnamed.physics is not None and not effects:
+    if unnamed.physics is not None and not effects:
         verdict = "unexplained"  # a proved equation contradicts agreement, although it has no name
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
@@ -296,7 +298,7 @@ def _unnamed(
     model: CorrectedModel,
     fit: dict[str, OutputFit],
     equation: UnnamedReport | None,
-) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
+) -> tuple[UnnamedReport, CorrectedModel, dict[str, OutputFit]]:
     """Look for an equation of the residual, and put it in if it holds on unseen sweeps.
 
     The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could absorb
@@ -304,12 +306,15 @@ def _unnamed(
     """
     plainly = verdict not in (*_SOMETHING_LEFT, "undecided")
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
-        return None, model, fit
+        why = _SETTLE_FIRST if it.prepared.stopped else _AS_USUAL
+        return UnnamedReport(None, why, looked_for=False), model, fit
     with under_way("looking for an equation of the residual"):
         found = equation or unnamed_physics(it.analysis, plainly=plainly)
     found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
-    return None if plainly and found.physics is None else found, model, fit
+    if plainly and found.physics is None:
+        found = replace(found, alternatives=[])  # of an equation that nothing asked for
+    return found, model, fit
 
 
 def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:

@@ -263,7 +263,9 @@ class ReportContents:
     held_out: HeldOutFit | None = None
     assumed: list[str] = field(default_factory=list)
     find_visible: Callable[[], list[Visible]] = field(default=list, repr=False, compare=False)
-    unnamed: UnnamedReport | None = None
+    unnamed: UnnamedReport = field(
+        default_factory=partial(UnnamedReport, None, "it was not looked for", looked_for=False)
+    )
     withheld: tuple[str, ...] = ()
     probabilities: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
 

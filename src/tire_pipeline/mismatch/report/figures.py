@@ -198,8 +198,8 @@ def drawings(report: ReportContents) -> list[dict[str, Any]]:
 
 def unnamed_curve(report: ReportContents) -> Markup | None:
     """Draw the residual over the first factor of the equation for unnamed physics, beside the equation."""
-    curve = None if report.unnamed is None else report.unnamed.curve
-    if not curve:
+    curve = report.unnamed.curve
+    if report.unnamed.physics is None or not curve:
         return None
     with matplotlib.rc_context(_REPORT_STYLE):
         figure = Figure(figsize=(9.0, 2.9), layout="constrained")

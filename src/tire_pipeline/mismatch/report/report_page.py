@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
@@ -70,15 +71,16 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
         next_experiment=in_words(report.next_experiment),
         visible=seen,
         silent=silent,
-        unnamed=report.unnamed,
+        unnamed=report.unnamed if report.unnamed.looked_for and report.verdict != "agrees" else None,
+        chance=f"{CHANCE:.0%}",
         unnamed_symbols=_symbols(report.unnamed),
         unnamed_figure=unnamed_curve(report),
     )
 
 
-def _symbols(found: UnnamedReport | None) -> list[tuple[str, str]]:
+def _symbols(found: UnnamedReport) -> list[tuple[str, str]]:
     """Symbols of an unnamed equation and of those as good, what they mean, and the nominal values in them."""
-    if found is None or found.physics is None:
+    if found.physics is None:
         return []
     each = [found.physics.equations, *(other.equations for other in found.alternatives)]
     texts = [text for equations in each for text in equations.values()]

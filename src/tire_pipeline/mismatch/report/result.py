@@ -52,8 +52,8 @@ class MismatchReport(ReportContents):
         What was assumed because the recording does not state it.
     find_visible : callable
         Returns :attr:`visible`, which takes longest to compute: it is called when that is first used.
-    unnamed : UnnamedReport, optional
-        An equation of the residual, or why there is none; None if nothing is left.
+    unnamed : UnnamedReport
+        An equation of the residual, or why there is none.
     withheld : tuple of str
         Named effects that are not in ``corrected``, because it is not certain that they improve unseen
         sweeps.
@@ -147,7 +147,7 @@ class MismatchReport(ReportContents):
             "visible": [asdict(v) for v in self.visible],
             "recordings": list(self.recordings),
             "held_out": None if self.held_out is None else asdict(self.held_out),
-            "unnamed": None if self.unnamed is None else asdict(self.unnamed),
+            "unnamed": asdict(self.unnamed),
             "withheld": list(self.withheld),
             "probabilities": [{"names": list(names), "probability": p} for names, p in self.probabilities],
             "corrected": [{"name": n, "parameters": dict(p)} for n, p in self.corrected.changes],

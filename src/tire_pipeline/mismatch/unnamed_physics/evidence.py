@@ -171,26 +171,28 @@ def drivers_of(model: Model, terms: Sequence[Term]) -> frozenset[str]:
 
 
 def driver_posterior(
-    models: Sequence[Model], terms: Sequence[Term]
-) -> tuple[dict[frozenset[str], float], dict[str, float]]:
-    """Return the posterior of the sets of drivers, and of each driver.
+    models: Sequence[Model], drivers: Sequence[frozenset[str]]
+) -> dict[frozenset[str], float]:
+    """Return the posterior of the sets of drivers, the likeliest first.
 
     Tempered by the tolerance: of the forms in the library none is quite right.
+
+    Parameters
+    ----------
+    models : sequence of Model
+        The likeliest first.
+    drivers : sequence of frozenset of str
+        Of each term.
     """
     if not models:
-        return {}, {}
+        return {}
     heat = tolerance(models)
     most = models[0].score
     mass: dict[frozenset[str], float] = defaultdict(float)
     for m in models:
         weight = np.exp((m.score - most) / heat)
-        key = drivers_of(m, terms)
+        key = frozenset[str]().union(*(drivers[i] for i in m.terms))
         mass[key] = max(mass[key], float(weight))
     nothing = float(np.exp(-most / heat))
     total = sum(mass.values()) + nothing
-    sets = {k: w / total for k, w in sorted(mass.items(), key=lambda item: -item[1])}
-    each: dict[str, float] = defaultdict(float)
-    for key, w in sets.items():
-        for driver in key:
-            each[driver] += w
-    return sets, dict(sorted(each.items(), key=lambda item: -item[1]))
+    return {k: w / total for k, w in sorted(mass.items(), key=lambda item: -item[1])}

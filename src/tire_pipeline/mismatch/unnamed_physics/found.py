@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,20 @@ since what turns with the way has another phase in another recording."""
 
 
 @dataclass(frozen=True)
+class CoefficientInterval:
+    """A coefficient of an equation and its 95% interval, in N over the unit of its term.
+
+    Parameters
+    ----------
+    value, low, high : float
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
 class UnnamedPhysics:
     """Unnamed physics, as an equation.
 
@@ -38,6 +52,8 @@ class UnnamedPhysics:
     ranges : dict of str to (low, high)
         Symbol -> the range in which the equation holds; it fades outside.
     nominal : NominalValues
+    coefficients : dict of str to list of CoefficientInterval
+        Output -> those of its terms in their order. The numbers inside of a term count as known.
     """
 
     equations: Mapping[str, str]
@@ -45,6 +61,7 @@ class UnnamedPhysics:
     acts_on: str
     ranges: Mapping[str, tuple[float, float]]
     nominal: NominalValues
+    coefficients: Mapping[str, Sequence[CoefficientInterval]] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
@@ -96,6 +113,7 @@ class UnnamedPhysics:
             "unit": "N, added to the force of the same name",
             "symbols": {s: MEANING[s] for s in MEANING if s in used | set(self.ranges)},
             "nominal": asdict(self.nominal),
+            "coefficients": {o: [asdict(c) for c in each] for o, each in self.coefficients.items()},
             "range": {s: [float(low), float(high)] for s, (low, high) in self.ranges.items()},
             "outside": "goes to nothing in a straight line over this part of the range's width",
             "fade": {s: _fade(s) for s in self.ranges},
@@ -139,10 +157,11 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")
+        coefficients = _coefficients(content.get("coefficients", {}), equations)
         depends_on, acts_on = tuple(map(str, content["depends_on"])), str(content["acts_on"])
         if len("".join([*depends_on, acts_on])) > LONGEST:
             raise ValueError(f"its words are over {LONGEST} characters long")
-        return UnnamedPhysics(equations, depends_on, acts_on, ranges, nominal)
+        return UnnamedPhysics(equations, depends_on, acts_on, ranges, nominal, coefficients)
     except EquationError:
         raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
@@ -151,6 +170,22 @@ def from_sidecar(content: object) -> UnnamedPhysics:
             where="sidecar, unnamed",
             todo="write the file again with this version, or take that entry out",
         ) from error
+
+
+def _coefficients(
+    content: Mapping[str, Any], equations: Mapping[str, str]
+) -> dict[str, list[CoefficientInterval]]:
+    """Read the intervals of the coefficients; files of earlier versions have none."""
+    found = {
+        str(o): [CoefficientInterval(**{k: float(v) for k, v in c.items()}) for c in each]
+        for o, each in content.items()
+    }
+    every = [c for each in found.values() for c in each]
+    if set(found) - set(equations) or len(every) > LONGEST:
+        raise ValueError("its coefficients are not those of its equations")
+    if not all(np.isfinite([c.low, c.high]).all() and c.low <= c.value <= c.high for c in every):
+        raise ValueError("an interval of its coefficients is none")
+    return found
 
 
 @dataclass(frozen=True)
@@ -183,8 +218,13 @@ class UnnamedReport:
     why_not : str
         The reason if there is none.
     drivers : dict of str to float
-        Driver -> posterior probability that the unexplained part depends on it.
+        Driver -> posterior probability that the unexplained part depends on it. Where forces have
+        equations of their own, the larger probability of their searches.
+    independent_of : dict of str to float
+        Recorded channel that varies and that the library has -> posterior probability, below 0.05, that a
+        force with an equation depends on it or on what it was. Empty without a proved equation.
     sets : list of (drivers, probability)
+        Of the first equation's search.
     where : str
         ``tire`` or ``rig``, and by what.
     coefficients : list of (value, standard error)
@@ -192,6 +232,7 @@ class UnnamedReport:
     evidence : float
         Log evidence over no equation.
     alternatives : list of Alternative
+        For the forces that the equation beside them was found for.
     unseen : dict of str to (before, after, ceiling)
         Output -> RMS error on sweeps that neither choice nor fit has seen, N: without it, with it, and with a
         Gaussian process in the same drivers.
@@ -202,6 +243,8 @@ class UnnamedReport:
     ideas : list of Idea
     instead_of : tuple of str
         Effects whose names it replaces: it leaves less on unseen sweeps than they do.
+    looked_for : bool
+        Whether an equation was looked for.
     curve : dict of list
         ``x`` (driver or term), ``left`` and ``fitted`` by bins, for the figure.
     """
@@ -209,6 +252,7 @@ class UnnamedReport:
     physics: UnnamedPhysics | None
     why_not: str = ""
     drivers: dict[str, float] = field(default_factory=dict)
+    independent_of: dict[str, float] = field(default_factory=dict)
     sets: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
     where: str = ""
     coefficients: list[tuple[float, float]] = field(default_factory=list)
@@ -220,4 +264,9 @@ class UnnamedReport:
     p_value: float = 1.0
     ideas: list[Idea] = field(default_factory=list)
     instead_of: tuple[str, ...] = ()
+    looked_for: bool = True
     curve: dict[str, Any] = field(default_factory=dict)
+
+    def refused(self, why: str) -> UnnamedReport:
+        """Return the same without its equation, and without what rests on that."""
+        return replace(self, physics=None, why_not=why, independent_of={})

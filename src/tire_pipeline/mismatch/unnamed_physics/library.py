@@ -8,7 +8,7 @@ that breaks this costs more (conicity and ply steer do).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 
@@ -118,6 +118,11 @@ class Term:
         """What it depends on beside the force that it is a part of."""
         own = frozenset({"normal_load"}) if self.way.startswith("added") else frozenset[str]()
         return own.union(*(f.drivers for f in self.factors))
+
+    def without(self, factors: Iterable[Factor]) -> Term:
+        """Return the same without some factors."""
+        left_out = set(factors)
+        return Term(self.way, tuple(f for f in self.factors if f not in left_out))
 
     def text(self, output: str) -> str:
         """Its equation for one output, without coefficient; empty where it does nothing."""

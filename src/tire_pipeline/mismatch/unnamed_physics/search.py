@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
-from tire_pipeline.mismatch.model.channels import CLASSES, least_spread, one_sided, span, white_noise
+from tire_pipeline.mismatch.model.channels import CLASSES, one_sided, span, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
-from tire_pipeline.mismatch.unnamed_physics.evidence import (
-    MOST_TERMS,
-    Model,
-    driver_posterior,
-    drivers_of,
-    tolerance,
+from tire_pipeline.mismatch.unnamed_physics.chosen_equation import (
+    ChosenEquation,
+    alternatives,
+    drivers_with_evidence,
+    equations,
+    intervals,
+    ruled_out,
 )
-from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
+from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, Model
+from tire_pipeline.mismatch.unnamed_physics.found import (
+    CoefficientInterval,
+    UnnamedPhysics,
+    UnnamedReport,
+)
+from tire_pipeline.mismatch.unnamed_physics.grammar import parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problem import (
@@ -39,12 +45,11 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
     best_of,
     ceiling,
-    fitted,
     forces_of,
     proven,
     surely_less,
 )
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, SPAN
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, held_within
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -164,11 +169,11 @@ def find(*views: Unexplained) -> UnnamedReport:
     return _reported(views[0], _parts([_look(problem) for problem in views]))
 
 
-def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedReport:
+def _reported(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedReport:
     """Report what was found, with its equations if they are proved."""
     first = parts[0]
-    sets, each = driver_posterior(first.choice.models, first.choice.terms)
-    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]
+    shown = [(tuple(sorted(k)), p) for k, p in list(first.posterior.items())[:_SHOWN]]
+    each = drivers_with_evidence(parts)
     if first.model is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
     one_sided = _one_sided(problem)
@@ -177,12 +182,13 @@ def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> Unnamed
     return UnnamedReport(
         physics=physics,
         why_not="" if physics is not None else _ONE_SIDED if one_sided else _NOT_PROVED,
-        drivers=each | {d: 1.0 for p in parts[1:] for d in p.drivers},
+        drivers=each,
+        independent_of={} if physics is None else ruled_out(parts),
         sets=shown,
         where=_where(terms),
         coefficients=[pair for p in parts for pair in p.coefficients],
         evidence=sum(p.model.evidence for p in parts if p.model is not None),
-        alternatives=_alternatives(first.choice, first.model),
+        alternatives=[other for p in parts for other in alternatives(p)],
         unseen={o: error for p in parts for o, error in _unseen(p).items()},
         better=min(p.proof.better for p in parts),
         sweeps=first.proof.sweeps,
@@ -192,35 +198,7 @@ def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> Unnamed
     )
 
 
-@dataclass(frozen=True)
-class _ChosenEquation:
-    """What was chosen for some forces, and how it does on sweeps that it has not seen."""
-
-    columns: Columns
-    choice: ChosenModels
-    model: Model | None
-    proof: Proven
-
-    @property
-    def terms(self) -> list[Term]:
-        """Terms of the equation."""
-        return [] if self.model is None else [self.choice.terms[i] for i in self.model.terms]
-
-    @property
-    def drivers(self) -> frozenset[str]:
-        """What it depends on."""
-        return frozenset[str]() if self.model is None else drivers_of(self.model, self.choice.terms)
-
-    @property
-    def coefficients(self) -> list[tuple[float, float]]:
-        """Values and standard errors."""
-        if self.model is None:
-            return []
-        values, errors = fitted(self.choice, self.model.terms)
-        return [(float(v), float(e)) for v, e in zip(values, errors, strict=True)]
-
-
-def _parts(looked: Sequence[_Looked]) -> list[_ChosenEquation]:
+def _parts(looked: Sequence[_Looked]) -> list[ChosenEquation]:
     """Look for one equation of all forces, then for an own one of each force that it does not make better.
 
     What acts on one force alone must not give way to a form that another force asks for.
@@ -234,19 +212,19 @@ def _parts(looked: Sequence[_Looked]) -> list[_ChosenEquation]:
     return kept or [whole]
 
 
-def _added(parts: Sequence[_ChosenEquation]) -> dict[str, Array]:
+def _added(parts: Sequence[ChosenEquation]) -> dict[str, Array]:
     """What is added to each force on unseen sweeps, N."""
     return {o: force for part in parts for o, force in part.proof.added.items()}
 
 
-def _best_part(looked: Sequence[_Looked]) -> _ChosenEquation:
+def _best_part(looked: Sequence[_Looked]) -> ChosenEquation:
     """Return the choice that does best on sweeps that it has not seen."""
     proofs = [proof for _, _, of_view in looked for proof in of_view]
     which = best_of(proofs)
     columns, choice, _ = looked[which // MOST_TERMS]
     if not proofs[which].holds:
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
-    return _ChosenEquation(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
+    return ChosenEquation(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
 
 
 def _look(problem: Unexplained) -> _Looked:
@@ -255,31 +233,18 @@ def _look(problem: Unexplained) -> _Looked:
     return columns, choose(columns), proven(columns)
 
 
-def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> dict[str, str]:
-    """Return the text of a set of terms with its coefficients, for each output."""
-    values, _ = fitted(choice, model.terms)
-    out = {}
-    for o in outputs:
-        parts = [
-            f"{number(float(value))}*{choice.terms[i].text(o)}"
-            for i, value in zip(model.terms, values, strict=True)
-            if choice.terms[i].text(o)
-        ]
-        if parts:
-            out[o] = " + ".join(parts)
-    return out
-
-
-def _physics(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedPhysics | None:
+def _physics(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedPhysics | None:
     texts: dict[str, str] = {}
+    sizes: dict[str, list[CoefficientInterval]] = {}
     for part in parts:
         if part.model is not None:
             texts |= equations(part.choice, part.model, part.proof.outputs)
+            sizes |= intervals(part)
     if not texts:
         return None
     acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for p in parts for t in p.terms))
     drivers = tuple(sorted(frozenset[str]().union(*(p.drivers for p in parts))))
-    return UnnamedPhysics(texts, drivers, acts, _ranges(problem, texts), problem.nominal)
+    return UnnamedPhysics(texts, drivers, acts, _ranges(problem, texts), problem.nominal, sizes)
 
 
 def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
@@ -294,14 +259,9 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
     for symbol in sorted(s for s in seen if s in CHANNEL):
         x = problem.table.columns[symbol]
         low, high = (x.min(), x.max()) if symbol == "t" else span(x)
-        short = 0.5 * max(_held_within(symbol, x) - (high - low), 0.0)
+        short = 0.5 * max(held_within(symbol, x) - (high - low), 0.0)
         found[symbol] = (float(low - short), float(high + short))
     return found
-
-
-def _held_within(symbol: str, x: Array) -> float:
-    """Spread, in the symbol's unit, within which its channel counts as held."""
-    return least_spread(CHANNEL[symbol], x) / (SPAN if symbol == "h" else 1.0)
 
 
 def _where(terms: list[Term]) -> str:
@@ -318,23 +278,7 @@ def _where(terms: list[Term]) -> str:
     return f"it follows {', '.join(sorted(d for d in drivers if d not in of_tire))}"
 
 
-def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
-    """Other equations within what forms get wrong, of other drivers or ways first."""
-    near = tolerance(choice.models)
-    own = {best.terms}
-    out = []
-    for m in choice.models:
-        if m.terms in own or m.score < best.score - near or len(m.terms) > len(best.terms):
-            continue
-        own.add(m.terms)
-        drivers = tuple(sorted(drivers_of(m, choice.terms)))
-        out.append(Alternative(equations(choice, m, TANGENTIAL_FORCES), drivers, m.evidence))
-        if len(out) == _SHOWN:
-            break
-    return out
-
-
-def _unseen(part: _ChosenEquation) -> dict[str, tuple[float, float, float]]:
+def _unseen(part: ChosenEquation) -> dict[str, tuple[float, float, float]]:
     problem, predicted = part.columns.problem, part.proof.predicted
     most = ceiling(part.columns, part.terms)
     return {

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -49,6 +50,11 @@ CHANNEL = {
     "t": "time",
 }
 """Symbol -> the channel that it is of."""
+
+
+def held_within(symbol: str, x: Array) -> float:
+    """Spread, in the symbol's unit, within which its channel counts as held."""
+    return least_spread(CHANNEL[symbol], x) / (SPAN if symbol == "h" else 1.0)
 
 
 @dataclass(frozen=True)
