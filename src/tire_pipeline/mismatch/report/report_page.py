@@ -32,7 +32,7 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import MEANING
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy
 
-_UNITS = {"F0": "N", "R0": "m", "V0": "m/s", "P0": "Pa", "T0": "degC"}
+_NOMINAL_UNITS = {"F0": "N", "R0": "m", "V0": "m/s", "P0": "Pa", "T0": "degC"}
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
 
@@ -85,10 +85,14 @@ def _symbols(found: UnnamedReport) -> list[tuple[str, str]]:
     each = [found.physics.equations, *(other.equations for other in found.alternatives)]
     texts = [text for equations in each for text in equations.values()]
     used = frozenset(found.physics.ranges).union(*(parse(text).symbols for text in texts))
-    told = [(symbol, MEANING[symbol]) for symbol in MEANING if symbol in used and symbol not in _UNITS]
+    told = [
+        (symbol, MEANING[symbol]) for symbol in MEANING if symbol in used and symbol not in _NOMINAL_UNITS
+    ]
     words = {*used, *re.findall(r"\w+", " ".join(meaning for _, meaning in told))}
     nominal = asdict(found.physics.nominal)
-    return told + [(name, f"{nominal[name]:,.6g} {unit}") for name, unit in _UNITS.items() if name in words]
+    return told + [
+        (name, f"{nominal[name]:,.6g} {unit}") for name, unit in _NOMINAL_UNITS.items() if name in words
+    ]
 
 
 def number(value: Any, digits: int = 3) -> str:
