@@ -76,7 +76,11 @@ SHOWN_UNITS = {
 }
 """The units that engineers use, by channel."""
 
-_LARGEST_LOAD_IN_NEWTONS = 100.0
+LARGEST_LOAD_OF_MODEL_CARS = 100.0
+"""In N: below that no tire of a car, a motorcycle or a bicycle is used."""
+
+TIRE_PRESSURES = (6e4, 1.2e6)
+"""Pa, of racing cars at 0.6 bar to trucks at 9 bar (ETRTO), cold; a third more when hot."""
 
 
 def shown_unit(channel: str, size: float) -> ShownUnit:
@@ -90,7 +94,7 @@ def shown_unit(channel: str, size: float) -> ShownUnit:
     'N'
     """
     known = SHOWN_UNITS.get(channel, ShownUnit(1.0, "", channel.replace("_", " ")))
-    if channel == "normal_load" and abs(size) < _LARGEST_LOAD_IN_NEWTONS:
+    if channel == "normal_load" and abs(size) < LARGEST_LOAD_OF_MODEL_CARS:
         return known._replace(factor=1.0, unit="N")
     return known
 

@@ -267,3 +267,40 @@ def test_signs_and_channels_are_judged_before_bounds(table, change, start, said)
 )
 def test_a_part_of_a_sweep_is_no_poor_fit(rows, start):
     assert fit_magic_formula(rows, start=start, starts=4).poor == {}
+
+
+def in_kn(**more):
+    return FEW.assign(normal_load=FEW["normal_load"] / 1e3, fy=FEW["fy"] / 1e3, **more)
+
+
+@pytest.mark.parametrize(
+    ("table", "options", "said"),
+    [
+        (FEW.assign(pressure=12.0), {"version": "6.1"}, "no tire has a pressure of 12 Pa"),
+        (FEW.assign(pressure=83.0), {"version": "6.1"}, "no tire has a pressure of 83 Pa"),
+        (FEW.assign(pressure=0.0), {"version": "6.1"}, "no tire has a pressure of 0 Pa"),
+        (FEW, {"unloaded_radius": 320.0}, "no tire has an unloaded radius of 320 m"),
+        (in_kn(pressure=83e3), {}, "N is a model car's, but a pressure was recorded"),
+        (in_kn(), {"unloaded_radius": 0.3}, "but the wheel has a radius of 0.3 m"),
+        (in_kn(), {"nominal_load": 4000.0}, "but the nominal load is 4,000 N"),
+    ],
+)
+def test_what_no_tire_has_of_load_pressure_and_radius_is_no_success(table, options, said):
+    with pytest.warns(PoorFitWarning, match=said):
+        fit = fit_magic_formula(table, starts=2, **options)
+    assert said in fit.poor["fy"]
+
+
+@pytest.mark.parametrize("options", [{}, {"unloaded_radius": 0.023}, {"nominal_load": 4.0}])
+def test_a_model_car_is_no_poor_fit(options):
+    """Of a load alone nobody can tell: a note asks, unless the caller has said what loads the tire has."""
+    fit = fit_magic_formula(in_kn(), starts=2, **options)
+    assert fit.poor == {}
+    assert any("is a model car's: check the unit" in note for note in fit.notes) != (
+        "nominal_load" in options
+    )
+
+
+@pytest.mark.parametrize("version", ["5.2", "6.1"])
+def test_a_pressure_that_a_tire_has_is_no_poor_fit(version):
+    assert fit_magic_formula(FEW.assign(pressure=69e3), version, starts=2).poor == {}

@@ -8,7 +8,7 @@ import pytest
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.recording.prepare import prepare
-from tire_pipeline.recordings import check_recording
+from tire_pipeline.recordings import check_recording, read_recording
 from tire_pipeline.tir import read_tir
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "tire.tir"
@@ -42,6 +42,11 @@ def in_turn(frame, one, other):
     return frame.assign(**{one: frame[one].mask(first), other: frame[other].mask(~first)})
 
 
+def in_kn():
+    """Load and force in kN, without a word about it."""
+    return good().assign(normal_load=3.0, fy=lambda d: d["fy"] / 1000.0)
+
+
 @pytest.mark.parametrize(
     ("frame", "name", "severity", "rows"),
     [
@@ -68,6 +73,8 @@ def in_turn(frame, one, other):
         (good().assign(tread_temperature=300.0), "implausible_value", "warning", ()),
         (good().assign(normal_load=3e6), "implausible_value", "warning", ()),
         (good().assign(normal_load=3.0), "implausible_friction", "warning", ()),
+        (in_kn().assign(pressure=83e3), "small_load", "warning", ()),
+        (in_kn().assign(loaded_radius=0.3), "small_load", "warning", ()),
         (good().assign(fy=7.0), "constant_force", "error", ()),
         (good().assign(fx=7.0), "constant_force", "warning", ()),
     ],
@@ -101,6 +108,26 @@ def test_what_no_tire_has_is_named_with_the_units_that_it_may_be_in(channel, val
     assert channel in issue.where
     assert (" or ".join(units) or "no unit that is known") in issue.advice
     assert not units or f"--unit 'their name={units[0]}'," in issue.advice
+
+
+def test_a_small_load_is_a_model_cars_unless_something_says_otherwise():
+    assert check_recording(in_kn().assign(loaded_radius=0.023)) == []
+    stated = in_kn()
+    stated.attrs = {"file_units": {"normal_load": "N"}, "channels": {"normal_load": "FZ"}}
+    assert check_recording(stated) == []
+    stated.attrs["file_units"]["normal_load"] = None
+    (issue,) = check_recording(stated)
+    assert "no unit of the load is stated" in issue.where
+    assert "the unit is likely kN. State it, if it is kN: --unit FZ=kN" in issue.advice
+
+
+def test_a_file_of_kilonewtons_without_units_is_asked_about(tmp_path):
+    table = in_kn().drop(columns="time").set_axis(["SA [deg]", "FZ", "FY"], axis=1)
+    table["SA [deg]"] = np.degrees(table["SA [deg]"])
+    table.to_csv(tmp_path / "kn.csv", index=False)
+    assert "small_load" in [issue.name for issue in check_recording(read_recording(tmp_path / "kn.csv"))]
+    named = read_recording(tmp_path / "kn.csv", units={"FZ": "kN", "FY": "kN"})
+    assert "small_load" not in [issue.name for issue in check_recording(named)]
 
 
 @pytest.mark.parametrize("channel", ["time", "normal_load", "fy"])

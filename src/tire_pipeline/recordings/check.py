@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,12 +16,16 @@ from tire_pipeline.recordings.conventions.plausible import (
     FORCE_OVER_LOAD,
     PLAUSIBLE_VALUES,
     likely_load_units,
+    likely_unit_stated,
     likely_units,
     plausible,
     size,
+    unit_stated,
+    units_of_larger_loads,
 )
 from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
+from tire_pipeline.small_loads import in_another_unit_as
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -285,12 +288,6 @@ def _spikes(column: str, values: np.ndarray) -> list[Issue]:
     return [Issue("spikes", "warning", said_of_spikes(column, values, found), "left out", _runs(found))]
 
 
-def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
-    """Return how a user states the unit of a column, by the name that the file gives it."""
-    name = frame.attrs.get("channels", {}).get(column, column)
-    return f"--unit {shlex.quote(f'{name}={unit}')}, in Python units={{{name!r}: {unit!r}}}"
-
-
 def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     """Report values that no tire has, and the units that would make them plausible."""
     large = size(values)
@@ -306,7 +303,7 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
                 "implausible_value",
                 "warning",
                 where,
-                f"no tire has this; {_ask(frame, column, likely_units(frame, column, large))}",
+                f"no tire has this; {likely_unit_stated(frame, column, likely_units(frame, column, large))}",
             )
         ]
     return [
@@ -320,14 +317,6 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     ]
 
 
-def _ask(frame: pd.DataFrame, column: str, units: list[str]) -> str:
-    """Return how to state the unit of a channel, given the units that it may be in."""
-    if not units:
-        return "no unit that is known makes it plausible: check the channel"
-    which = f"the unit is likely {' or '.join(units)}"
-    return f"{which}. State it, if it is {units[0]}: {unit_stated(frame, column, units[0])}"
-
-
 def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarray) -> list[Issue]:
     """Report a force that is too large for its load: the load is probably in another unit."""
     large = size(load)
@@ -335,11 +324,20 @@ def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarr
     name = max(sizes, key=lambda n: sizes[n], default="")
     usual = not name or not large > 0.0 or sizes[name] <= FORCE_OVER_LOAD[1] * large
     if usual or not plausible("normal_load", large):
-        return []
+        return _small_load(frame, large)
     where = f"{name}, up to {in_digits(sizes[name])} N at a normal_load of up to {in_digits(large)} N"
     units = likely_load_units(frame, large, sizes[name])
-    todo = f"no tire makes this force; of the load, {_ask(frame, 'normal_load', units)}"
+    todo = f"no tire makes this force; of the load, {likely_unit_stated(frame, 'normal_load', units)}"
     return [Issue("implausible_friction", "warning", where, todo)]
+
+
+def _small_load(frame: pd.DataFrame, large: float) -> list[Issue]:
+    """Report a load that only a model car has, where something says that this is another tire."""
+    told = ", and ".join(in_another_unit_as(frame, large))
+    where = f"normal_load, up to {in_digits(large)} N: a model car's, but {told}"
+    ask = likely_unit_stated(frame, "normal_load", units_of_larger_loads(frame, large))
+    todo = f"look at the units of load and forces; of the load, {ask}"
+    return [Issue("small_load", "warning", where, todo)] if told else []
 
 
 def _force_and_load(frame: pd.DataFrame) -> list[Issue]:

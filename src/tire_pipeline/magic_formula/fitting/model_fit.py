@@ -23,6 +23,7 @@ from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_p
 from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
+from tire_pipeline.magic_formula.fitting.setup.unlike_tires import unlike_tires
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
@@ -96,8 +97,9 @@ def fit_magic_formula(
     Warns
     -----
     PoorFitWarning
-        If the fit leaves more than 10% of an output's largest magnitude, or its force falls with slip in the
-        tire's own convention; with the likely reason. ``poor`` and the summary of the result say so, too.
+        If the fit leaves more than 10% of an output's largest magnitude, its force falls with slip in the
+        tire's own convention, or no tire has such a friction, load, pressure or radius; with the likely
+        reason. ``poor`` and the summary of the result say so, too.
 
     Notes
     -----
@@ -128,11 +130,12 @@ def fit_magic_formula(
     check_arguments(start, nominal_load, unloaded_radius, starts, loss, seed)
     points, forces, left_out, said = columns(recording, version)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
+    unlike, small = unlike_tires(recording, points, base, start is not None or nominal_load is not None)
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
     forces, lone = without_lone_points(points, forces)
-    notes += [*said, *lone]
+    notes += [*said, *lone, *small]
     report = _FitNotes(notes, start is not None)
     options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
@@ -146,7 +149,7 @@ def fit_magic_formula(
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
     measured = pd.DataFrame({**points, **forces})
-    poor = poor_outputs(model, points, forces, shares, report.fitted, start, report.at_bound)
+    poor = poor_outputs(model, points, forces, shares, report.fitted, start, report.at_bound, unlike)
     for output, text in poor.items():
         warnings.warn(f"{output}: {text}", PoorFitWarning, stacklevel=2)
     return FitResult(

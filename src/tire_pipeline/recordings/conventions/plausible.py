@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
@@ -37,7 +39,7 @@ PLAUSIBLE_VALUES = {
     "normal_load": Plausible(0.0, 2e6, "the largest tire of a mining truck (59/80R63) carries 104 t (1 MN)"),
     "speed": Plausible(0.0, 130.0, "aircraft tires are rated to 235 mph (105 m/s), and tested beyond"),
     "pressure": Plausible(
-        6e4, 1.2e6, "racing cars of 0.6 bar to trucks of 9 bar (ETRTO), cold; a third more when hot"
+        *TIRE_PRESSURES, "racing cars of 0.6 bar to trucks of 9 bar (ETRTO), cold; a third more when hot"
     ),
     "tread_temperature": Plausible(0.0, 250.0, "above 200 degC rubber decomposes"),
 }
@@ -119,6 +121,21 @@ def likely_load_units(frame: pd.DataFrame, load: float, force: float) -> list[st
     return [unit for unit, x in _read_otherwise(frame, "normal_load", load) if low <= force / x <= high]
 
 
+def units_of_larger_loads(frame: pd.DataFrame, load: float) -> list[str]:
+    """Return the units in which a load that only a model car has would be another tire's.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        As above.
+    load : float
+        Its size as it was read, N.
+    """
+    most = PLAUSIBLE_VALUES["normal_load"].high
+    read = _read_otherwise(frame, "normal_load", load)
+    return [unit for unit, x in read if LARGEST_LOAD_OF_MODEL_CARS <= x <= most]
+
+
 def _read_otherwise(frame: pd.DataFrame, channel: str, large: float) -> list[tuple[str, float]]:
     """Return each other unit of a channel's kind, and the size that the channel would have in SI."""
     known = next(c for c in CANONICAL if c.name == channel)
@@ -131,3 +148,17 @@ def _read_otherwise(frame: pd.DataFrame, channel: str, large: float) -> list[tup
         for name, unit in units
         if unit.dimension == known.dimension and unit != stated
     ]
+
+
+def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
+    """Return how a user states the unit of a column, by the name that the file gives it."""
+    name = frame.attrs.get("channels", {}).get(column, column)
+    return f"--unit {shlex.quote(f'{name}={unit}')}, in Python units={{{name!r}: {unit!r}}}"
+
+
+def likely_unit_stated(frame: pd.DataFrame, column: str, units: list[str]) -> str:
+    """Return how to state the unit of a channel, given the units that it may be in."""
+    if not units:
+        return "no unit that is known makes it plausible: check the channel"
+    which = f"the unit is likely {' or '.join(units)}"
+    return f"{which}. State it, if it is {units[0]}: {unit_stated(frame, column, units[0])}"
