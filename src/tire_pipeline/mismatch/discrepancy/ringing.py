@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
-from scipy.signal import cont2discrete, lfilter
+import scipy
 
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
@@ -79,6 +79,9 @@ def rung(force: Array, frequency: float, step: float, damping: float) -> Array:
         N.
     """
     w = 2.0 * np.pi * frequency
-    above = [[-1.0, 0.0, 0.0], [-2.0 * damping * w, 0.0]]
-    parts = [cont2discrete((a, [1.0, 2.0 * damping * w, w * w]), step, method="foh") for a in above]
-    return np.column_stack([lfilter(np.ravel(a), below, force - force[0]) for a, below, _ in parts])
+    within, since = [1.0, 2.0 * damping * w, w * w], force - force[0]
+    parts = []
+    for part in ([-1.0, 0.0, 0.0], [-2.0 * damping * w, 0.0]):
+        above, below, _ = scipy.signal.cont2discrete((part, within), step, method="foh")
+        parts.append(scipy.signal.lfilter(np.ravel(above), below, since))
+    return np.column_stack(parts)
