@@ -46,7 +46,7 @@ def in_another_unit_as(recording: pd.DataFrame, load: float, radius: float = np.
     found = []
     if _median(recording, "pressure") > 0.0:
         found.append("a pressure was recorded")
-    known = (radius, _median(recording, "loaded_radius"), _radius_of_file(recording))
+    known = (radius, _median(recording, "loaded_radius"), radius_of_file(recording))
     large = [x for x in known if x > _LARGEST_RADIUS_OF_MODEL_CARS]
     if large:
         found.append(f"the wheel has a radius of {large[0]:.3g} m")
@@ -65,8 +65,14 @@ def _median(recording: pd.DataFrame, column: str) -> float:
     return float(np.median(values)) if values.size else float("nan")
 
 
-def _radius_of_file(recording: pd.DataFrame) -> float:
-    """Return half of the outer diameter that a TYDEX file states, m; NaN if it states none."""
+def radius_of_file(recording: pd.DataFrame) -> float:
+    """Return half of the outer diameter that a TYDEX file states, m; NaN if it states none.
+
+    Parameters
+    ----------
+    recording : DataFrame
+        ``attrs["constants"]`` holds what the file states.
+    """
     constants = recording.attrs.get("constants", {})
     entry = constants.get("OVALLDIA") if isinstance(constants, Mapping) else None
     if not isinstance(entry, Mapping) or not isinstance(entry.get("value"), int | float):

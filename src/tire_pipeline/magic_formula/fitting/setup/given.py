@@ -19,6 +19,7 @@ from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.pages.numbers_in_words import in_digits
+from tire_pipeline.small_loads import radius_of_file
 
 
 def base(
@@ -43,8 +44,8 @@ def base(
             notes.append(f"FNOMIN = {nominal_load:g} N is the median load to two digits")
     known["FNOMIN"] = float(nominal_load)
     if unloaded_radius is None and "UNLOADED_RADIUS" not in known:
-        unloaded_radius = _radius_of(recording)
-        if unloaded_radius is None:
+        unloaded_radius = radius_of_file(recording)
+        if not np.isfinite(unloaded_radius):
             unloaded_radius = ASSUMED_RADIUS
             notes.append(
                 f"UNLOADED_RADIUS = {ASSUMED_RADIUS:g} m is assumed{_beside_loaded(recording)}; the moments' "
@@ -57,15 +58,6 @@ def base(
         known.setdefault("NOMPRES", _median(points["pressure"], 220_000.0))
         known.setdefault("INFLPRES", known["NOMPRES"])
     return known, notes
-
-
-def _radius_of(recording: pd.DataFrame) -> float | None:
-    constants = recording.attrs.get("constants", {})
-    entry = constants.get("OVALLDIA") if isinstance(constants, Mapping) else None
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("value"), int | float):
-        return None
-    factor = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254}.get(str(entry.get("unit")))
-    return None if factor is None else 0.5 * factor * float(entry["value"])
 
 
 def _median(x: np.ndarray, otherwise: float) -> float:
