@@ -38,6 +38,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Problem, quick
 from tire_pipeline.magic_formula.fitting.setup import given
+from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PRESSURE_BOUNDS, STAGES
 from tire_pipeline.magic_formula.fitting.setup.starts import typical_values
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS, pull
@@ -76,7 +77,7 @@ def names_of(output: str, family: int) -> list[str]:
 
 def rows_of(table: pd.DataFrame, model: TireModel) -> list[np.ndarray]:
     """Return the inputs of the formula at a table's rows."""
-    points, *_ = given.columns(table)
+    points, *_ = columns(table, model.version)
     points["speed"] = given.filled(points["speed"], model.value("LONGVL"))
     points["pressure"] = given.filled(
         points["pressure"], model.value("NOMPRES") if model.family == 6 else 0.0
@@ -149,7 +150,7 @@ def judged(fit: FitResult, output: str, part: Subset, best: np.ndarray) -> dict[
         "least": min(here.misfit(best), here.misfit(own)),
         "largest": float(part.rows[output].abs().max()),
     }
-    if len(part.left_out) >= given.FEWEST_POINTS and not part.one_load:
+    if len(part.left_out) >= FEWEST_POINTS and not part.one_load:
         there = problem_of(fit.model, output, part.left_out)
         row |= {"left_out": there.misfit(own), "left_out_least": there.misfit(best)}
     return row

@@ -119,12 +119,15 @@ def test_a_richer_formula_leaves_no_more(subsets, number):
     assert ratios(subsets, part, rich, ("fy",))["fy"] <= 1.05
 
 
-@pytest.mark.parametrize("which", [0, 2, 4, "all"])
+@pytest.mark.parametrize("which", [0, 2, 4])
 def test_one_set_pressure_says_nothing_of_another(subsets, which):
-    """With coefficients freed by a ripple of 3%, 6.1 left up to seven times as much as 5.2 there."""
+    """With coefficients freed by a ripple of 3%, 6.1 left up to three times as much as 5.2 there.
+
+    Over all sweeps at one pressure the ripple is worth more than ``SLACK``, and frees them.
+    """
     table = subsets.calspan()
     inputs = ["slip_angle", "camber", "normal_load", "speed", "pressure", "fy"]
-    own = table[~table["low"] & ~table["leaning"] & ((table["sweep"] == which) | (which == "all"))]
+    own = table[~table["low"] & ~table["leaning"] & (table["sweep"] == which)]
     other = table.loc[table["low"] & ~table["leaning"], inputs].iloc[::20]
     fits = [fit_magic_formula(own[inputs].iloc[::20], version, starts=8) for version in ("5.2", "6.1")]
     left = []

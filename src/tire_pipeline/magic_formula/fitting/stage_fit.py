@@ -16,7 +16,7 @@ from tire_pipeline.magic_formula.fitting.least_squares.search import (
     most_typical,
 )
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
-from tire_pipeline.magic_formula.fitting.setup.coverage import noise_alone, open_coefficients
+from tire_pipeline.magic_formula.fitting.setup.coverage import ONE_PRESSURE, noise_alone, open_coefficients
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import Stage
 from tire_pipeline.magic_formula.fitting.setup.starts import (
     bounds_of,
@@ -214,17 +214,20 @@ def fit_stage(
     lowest = found.left
     exact = _EXACT_SHARE * float(np.abs(measured).max())
     released: dict[str, list[str]] = {}
-    if known - silent and found.left > exact and not are_few(found.problem):
-        every = [name for name in names if name not in silent]
+    ripple = set(closed.get(ONE_PRESSURE, ())) - silent
+    for later, slack in ((ripple, 0.5 * SLACK), (set[str](), SLACK))[: 2 if ripple else 1]:
+        every = [name for name in names if name not in silent | later]
+        if set(every) <= set(found.problem.names) or found.left <= exact or are_few(found.problem):
+            continue
         wider = setup.wider_search(found, every, -(-options.starts // 4))
-        lowest = min(found.left, wider.left)
-        if found.left > (1.0 + 0.5 * SLACK) * lowest or found.left > bar:
+        lowest = min(lowest, wider.left)
+        if found.left > (1.0 + slack) * lowest or found.left > bar:
             released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
             found = replace(wider, left=lowest)
     problem, bounds, free = found.problem, found.bounds, list(found.problem.names)
     most = max(min((1.0 + SLACK) * lowest, bar), found.left, exact)
     held = np.isin(free, sorted(known))
-    simpler = setup.simpler(problem, bounds)
+    simpler = setup.simpler(problem, bounds) if ONE_PRESSURE in closed else []  # the richer one knows no more
     values = most_typical(problem, bounds, found.values, options.loss, most, held, simpler)
     kept = {
         reason: {n: typical[n] for n in group if n not in free}

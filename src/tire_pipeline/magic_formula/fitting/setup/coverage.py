@@ -108,11 +108,6 @@ def _one_sided(slip: np.ndarray) -> bool:
 
 
 def noise_alone(names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float) -> set[str]:
-    """Return the coefficients whose input varies by no more than its noise: it determines nothing.
-
-    The ripple of one set pressure goes along with load and slip. Coefficients of pressure that are freed by
-    it take up errors of the formula, and are far off at another pressure.
-    """
+    """Return the coefficients whose input varies by no more than its noise: it determines nothing."""
     barely = open_coefficients(names, points, nominal_load, BARELY)
-    found = {name for reason in (NO_CAMBER, *RANGES) for name in barely.get(reason, ())}
-    return found.union(open_coefficients(names, points, nominal_load).get(ONE_PRESSURE, ()))
+    return {name for reason in (NO_CAMBER, ONE_PRESSURE, *RANGES) for name in barely.get(reason, ())}
