@@ -13,7 +13,7 @@ from tire_pipeline.concealed.unnamed import __main__ as trial
 from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, draw_open_case
 from tire_pipeline.concealed.unnamed.judge import drivers_right, equation_right, removed
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues
 
 OWN = NominalValues(F0=4200.0, R0=0.3, V0=15.0, P0=2.3e5, T0=45.0)
 BY_NAME = {m.name: m for m in MECHANISMS}

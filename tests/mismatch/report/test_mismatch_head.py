@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.report.headline.sentences import (
 from tire_pipeline.mismatch.report.remarks import on_moments
 from tire_pipeline.mismatch.report.report_page import percent
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues
 
 NOMINAL = NominalValues(4000.0, 0.3, 16.0, 2e5, 60.0)
 EQUATION = UnnamedPhysics({"fy": "0.1*Fz*v"}, ("speed",), "force", {"v": (0.8, 1.2)}, NOMINAL)

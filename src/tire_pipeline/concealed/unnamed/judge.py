@@ -14,7 +14,12 @@ from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, OpenCase
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
+    EquationError,
+    SymbolTable,
+    evaluate,
+    parse,
+)
 
 _MOVED_TOGETHER = 0.95
 """Correlation (size) from which on two channels count as moved together by the schedule."""

@@ -30,7 +30,7 @@ from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
-from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
 
 Array = np.ndarray
 _SAME_NOISE = 3.0

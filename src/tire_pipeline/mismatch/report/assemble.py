@@ -54,6 +54,7 @@ Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
 _SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
 _AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
+_ENDS_HERE = "an equation of the clock or the way rolled ends with its recording, and settles nothing"
 _TO_DO = {
     "undecided": "Explain a recording with more channels, or one that the model was fitted to.",
     "unexplained": "Record the same sweeps again, and then with one channel changed at a time: what repeats "
@@ -310,6 +311,8 @@ def _unnamed(
         return UnnamedReport(None, why, looked_for=False), model, fit
     with under_way("looking for an equation of the residual"):
         found = equation or unnamed_physics(it.analysis, plainly=plainly)
+    if verdict == "undecided" and found.physics is not None and found.physics.of_one_recording:
+        found = replace(found, physics=None, why_not=_ENDS_HERE)
     found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     if plainly and found.physics is None:

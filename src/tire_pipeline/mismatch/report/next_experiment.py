@@ -22,7 +22,7 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, largest
 from tire_pipeline.mismatch.model.forces import Change
-from tire_pipeline.mismatch.unnamed_physics.symbols import SPAN
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import SPAN
 
 Array = np.ndarray
 _SLOW_PERIOD, _FAST_PERIOD = 10.0, 1.0

@@ -27,8 +27,8 @@ from tire_pipeline.mismatch.report.words import (
     short_equation,
 )
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.grammar import parse
-from tire_pipeline.mismatch.unnamed_physics.symbols import MEANING
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import MEANING
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy
 

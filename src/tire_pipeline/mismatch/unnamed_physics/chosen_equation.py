@@ -12,11 +12,11 @@ from tire_pipeline.mismatch.model.channels import CHANCE, OF_INTERVAL, span
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels
 from tire_pipeline.mismatch.unnamed_physics.evidence import Model, driver_posterior, drivers_of, tolerance
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, CoefficientInterval
-from tire_pipeline.mismatch.unnamed_physics.grammar import number
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import number
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Factor, Term, now_factors
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import Proven, fitted
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, held_within
 
 _LISTED = 3
 

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
-from tire_pipeline.mismatch.unnamed_physics.grammar import (
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
     LONGEST,
     EquationError,
     SymbolTable,
     evaluate,
     parse,
 )
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, NominalValues
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, MEANING, NominalValues
 
 Array = np.ndarray
 FORMAT = "unnamed physics 1"
@@ -46,7 +46,7 @@ class UnnamedPhysics:
     Parameters
     ----------
     equations : dict of str to str
-        Output -> what it adds, N, in the grammar of :mod:`.grammar`.
+        Output -> what it adds, N, in the grammar of :mod:`.language.grammar`.
     depends_on : tuple of str
     acts_on : str
     ranges : dict of str to (low, high)

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
-from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import number, parse
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL
 
 LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 """s; between them the search goes on from the best."""

@@ -14,8 +14,8 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import MISFITS, PATHS
 from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, NominalValues, table_of
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, NominalValues, table_of
 
 Array = np.ndarray
 Outputs = Mapping[str, Array]

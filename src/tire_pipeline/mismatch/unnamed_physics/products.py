@@ -15,7 +15,7 @@ import scipy
 
 from tire_pipeline.mismatch.inference.analysis import inflation_of
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS
-from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE, Unexplained
 

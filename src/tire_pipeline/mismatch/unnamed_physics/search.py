@@ -29,8 +29,9 @@ from tire_pipeline.mismatch.unnamed_physics.found import (
     UnnamedPhysics,
     UnnamedReport,
 )
-from tire_pipeline.mismatch.unnamed_physics.grammar import parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problem import (
     USUAL_MISFIT,
@@ -49,7 +50,6 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, held_within
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]

@@ -62,7 +62,7 @@ class PoorFitWarning(UserWarning):
     >>> with warnings.catch_warnings(record=True) as told:
     ...     fit = fit_magic_formula(points)
     >>> print(told[0].message)
-    fy: the fit leaves ...% of the largest magnitude. Likely reason: something that a steady Magic Formula ...
+    fy: the fit leaves ...% of the largest magnitude. Likely reason: a channel that does not belong; ...
     """
 
 

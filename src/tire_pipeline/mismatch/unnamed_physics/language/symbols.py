@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
-from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable
 
 Array = np.ndarray
 SPAN = 20.0
