@@ -174,8 +174,7 @@ class CorrectedModel:
             each = [forces, *(self._simulated(data, changes) for _, changes in others)]
             whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
             forces = {name: partly(start, whole[name], self.part) for name, start in plain.items()}
-        load = recording["normal_load"].to_numpy(dtype=float, na_value=np.nan)
-        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, load, forces)]
+        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
@@ -206,8 +205,8 @@ class CorrectedModel:
             if unknown
         ]
 
-    def _put_unnamed(self, data: Data, load: Array, forces: dict[str, Array]) -> list[str]:
-        """Add the unnamed equation to the forces, and say where it fades; the load is as it was recorded."""
+    def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
+        """Add the unnamed equation to the forces, and say where it fades."""
         if self.unnamed is None:
             return []
         for channel in self.unnamed.channels:
@@ -217,8 +216,8 @@ class CorrectedModel:
                 )
         table, _ = table_of(data, self.changes, self.unnamed.nominal)
         own = np.ones(data.size, bool)
-        if self.unnamed.of_one_recording and self.rolled is not None:
-            own = np.isfinite(self.rolled.at(data.time_line, load))
+        if self.unnamed.of_one_recording and data.wheel.known_way is not None:
+            own = np.isfinite(data.wheel.known_way)
         for name, change in self.unnamed.change(table).items():
             if name in forces:
                 forces[name] = forces[name] + np.where(own, change, 0.0)
@@ -311,7 +310,7 @@ class CorrectedModel:
             own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
         way = None
-        if self.rolled is not None and time is not None and "speed" in channels:
+        if self.rolled is not None and time is not None:
             way = self.rolled.at(time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan))
         recorded = RecordedChannels(
             channels=channels,

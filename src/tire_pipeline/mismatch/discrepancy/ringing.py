@@ -9,7 +9,7 @@ on top.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 import scipy
@@ -78,10 +78,17 @@ def rung(force: Array, frequency: float, step: float, damping: float) -> Array:
     ndarray, shape (n, 2)
         N.
     """
+    since = force - force[0]
+    filters = _filters(frequency, step, damping)
+    return np.column_stack([scipy.signal.lfilter(above, below, since) for above, below in filters])
+
+
+@lru_cache(maxsize=256)
+def _filters(frequency: float, step: float, damping: float) -> list[tuple[Array, Array]]:
+    """Return numerator and denominator of what the mass adds, and of what the damper adds."""
     w = 2.0 * np.pi * frequency
-    within, since = [1.0, 2.0 * damping * w, w * w], force - force[0]
-    parts = []
+    within, out = [1.0, 2.0 * damping * w, w * w], []
     for part in ([-1.0, 0.0, 0.0], [-2.0 * damping * w, 0.0]):
         above, below, _ = scipy.signal.cont2discrete((part, within), step, method="foh")
-        parts.append(scipy.signal.lfilter(np.ravel(above), below, since))
-    return np.column_stack(parts)
+        out.append((np.ravel(above), below))
+    return out

@@ -10,6 +10,7 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, RECORDED_CHANNELS
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.fitting.setup.checked import check_no_text
 from tire_pipeline.recordings.check import repeated_channels
 from tire_pipeline.recordings.spikes import without_spikes
 
@@ -113,15 +114,7 @@ def _numbers(column: pd.Series) -> pd.Series:
     if pd.api.types.is_datetime64_any_dtype(column):
         return (column - column.min()).dt.total_seconds()
     values = pd.to_numeric(column, errors="coerce")
-    lost = (values.isna() & column.notna()).to_numpy()
-    if lost.any():
-        first = int(lost.argmax())
-        raise RecordingError(
-            f"{int(lost.sum())} of {len(column)} values are no numbers, the first in row {first}: "
-            f"{column.iloc[first]!r}",
-            where=str(column.name),
-            todo="convert the column, or put NaN where nothing was measured",
-        )
+    check_no_text(column, values.to_numpy(dtype=float, na_value=np.nan))
     return values.astype(float)
 
 

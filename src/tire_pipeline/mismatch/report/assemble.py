@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -86,6 +86,17 @@ class Explained:
     answer: SetAnswer
     recording: pd.DataFrame
     level: float = LEVEL
+
+    @cached_property
+    def rolled(self) -> WheelWay | None:
+        """Where the wheel stood at each recorded sample; None without a time line."""
+        data = self.prepared.data
+        if data.time is None:
+            return None
+        columns = (self.recording[name] for name in ("time", "normal_load"))
+        time, load = (column.to_numpy(dtype=float, na_value=np.nan) for column in columns)
+        way = data.wheel.way if data.has("speed") else np.zeros(data.size)
+        return way_at_each(time, load, data.time_line, way)
 
 
 def assembled(it: Explained) -> MismatchReport:
@@ -277,19 +288,9 @@ def _model(
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
         part=part,
-        rolled=_rolled(it),
+        rolled=it.rolled,
     )
     return model.limited_where_it_helps(it.recording).cleaned_where_it_helps(it.recording)
-
-
-def _rolled(it: Explained) -> WheelWay | None:
-    """Return where the wheel stood at each recorded sample; None without a time line."""
-    data = it.prepared.data
-    if data.time is None:
-        return None
-    time, load = (it.recording[n].to_numpy(dtype=float, na_value=np.nan) for n in ("time", "normal_load"))
-    way = data.wheel.way if data.has("speed") else np.zeros(data.size)
-    return way_at_each(time, load, data.time_line, way)
 
 
 def _unnamed(
@@ -312,7 +313,7 @@ def _unnamed(
     with under_way("looking for an equation of the residual"):
         found = equation or unnamed_physics(it.analysis, plainly=plainly)
     if verdict == "undecided" and found.physics is not None and found.physics.of_one_recording:
-        found = replace(found, physics=None, why_not=_ENDS_HERE)
+        found = found.refused(_ENDS_HERE)
     found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     if plainly and found.physics is None:

@@ -18,7 +18,8 @@ from tire_pipeline.mismatch.unnamed_physics.library import WAY, Factor, Term, no
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import Proven, fitted
 
-_LISTED = 3
+LISTED = 3
+"""Sets of drivers, and alternatives, that a report lists."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,7 @@ def alternatives(part: ChosenEquation) -> list[Alternative]:
         seen.add(form)
         drivers = tuple(sorted(drivers_of(m, choice.terms)))
         out.append(Alternative(texts, drivers, m.evidence))
-        if len(out) == _LISTED:
+        if len(out) == LISTED:
             break
     return out
 

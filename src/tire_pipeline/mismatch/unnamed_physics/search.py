@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.chosen_equation import (
+    LISTED,
     ChosenEquation,
     alternatives,
     drivers_with_evidence,
@@ -53,7 +54,6 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
-_SHOWN = 3
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
@@ -172,7 +172,7 @@ def find(*views: Unexplained) -> UnnamedReport:
 def _reported(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedReport:
     """Report what was found, with its equations if they are proved."""
     first = parts[0]
-    shown = [(tuple(sorted(k)), p) for k, p in list(first.posterior.items())[:_SHOWN]]
+    shown = [(tuple(sorted(k)), p) for k, p in list(first.posterior.items())[:LISTED]]
     each = drivers_with_evidence(parts)
     if first.model is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)

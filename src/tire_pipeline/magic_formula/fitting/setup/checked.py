@@ -106,17 +106,36 @@ def numbers(recording: pd.DataFrame, name: str, unused: Collection[str] = ()) ->
         x = column.to_numpy(dtype=float, na_value=np.nan)
     else:
         x = pd.to_numeric(column.astype(object), errors="coerce").to_numpy(dtype=float, na_value=np.nan)
-        lost = np.isnan(x) & column.notna().to_numpy()
-        if lost.any() and name not in unused:
-            first = int(lost.argmax())
-            raise RecordingError(
-                f"{int(lost.sum())} of {x.size} values are no numbers, the first in row {first}: "
-                f"{column.iloc[first]!r}",
-                where=name,
-                todo="convert the column, or put NaN where nothing was measured",
-            )
+        if name not in unused:
+            check_no_text(column, x)
     with np.errstate(over="ignore", invalid="ignore"):
         return np.where(np.isfinite(x * x), x, np.nan)
+
+
+def check_no_text(column: pd.Series, values: np.ndarray) -> None:
+    """Raise if a column holds something that became no number.
+
+    Parameters
+    ----------
+    column : Series
+        As it was given, under its name.
+    values : ndarray, shape (n,)
+        Its numbers; NaN where there is none.
+
+    Raises
+    ------
+    RecordingError
+        It names the first such value, and its row.
+    """
+    lost = np.isnan(values) & column.notna().to_numpy()
+    if lost.any():
+        first = int(lost.argmax())
+        raise RecordingError(
+            f"{int(lost.sum())} of {values.size} values are no numbers, the first in row {first}: "
+            f"{column.iloc[first]!r}",
+            where=str(column.name),
+            todo="convert the column, or put NaN where nothing was measured",
+        )
 
 
 def _whole_number(name: str, value: Any, least: int) -> None:
