@@ -218,3 +218,12 @@ def test_a_steady_angle_in_degrees_is_converted_once():
     prepared = prepare(tire, frame.assign(fy=moved.fy))
     assert [(f.name, f.channel) for f in prepared.findings] == [("unit_error", "camber")]
     assert prepared.data.get("camber") == pytest.approx(np.radians(3.0))
+
+
+def test_dates_are_checked_in_seconds():
+    n = 60
+    moments = pd.Timestamp("2026-03-01 12:00") + pd.to_timedelta(np.arange(n) * 0.1, unit="s")
+    table = pd.DataFrame({"slip_angle": 0.1 * np.sin(np.arange(n)), "normal_load": 4000.0})
+    table["fy"] = -20000.0 * table["slip_angle"]
+    by_date, by_number = table.assign(time=moments), table.assign(time=np.arange(n) * 0.1)
+    assert [str(i) for i in check_recording(by_date)] == [str(i) for i in check_recording(by_number)]

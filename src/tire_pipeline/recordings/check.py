@@ -129,6 +129,13 @@ def repeated_channels(recording: pd.DataFrame) -> list[str]:
     return [n for n in dict.fromkeys(known) if known.count(n) > 1]
 
 
+def in_seconds(column: pd.Series) -> pd.Series:
+    """Return dates as seconds from the first one; numbers stay as they are."""
+    if pd.api.types.is_datetime64_any_dtype(column):
+        return (column - column.min()).dt.total_seconds()
+    return column
+
+
 def _columns(frame: pd.DataFrame) -> list[Issue]:
     issues = []
     columns = pd.DataFrame(frame, copy=False).items()  # without attrs: pandas copies them
@@ -193,7 +200,7 @@ def _whole_rows(frame: pd.DataFrame, held: set[str]) -> list[Issue]:
 def _time(frame: pd.DataFrame) -> list[Issue]:
     if "time" not in frame or len(frame) < 2:
         return []
-    time = frame["time"].to_numpy(dtype=float)
+    time = in_seconds(frame["time"]).to_numpy(dtype=float)
     known = np.flatnonzero(np.isfinite(time))
     step = np.full(time.size - 1, np.nan)
     step[known[1:] - 1] = np.diff(time[known])

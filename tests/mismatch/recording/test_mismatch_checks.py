@@ -34,6 +34,12 @@ def bad(recording, what):
         r["fy"] = np.nan
     if what == "beyond any measurement":
         r["fy"] *= 1e300
+    if what == "never together":
+        r.loc[::2, "fy"], r.loc[1::2, "normal_load"] = np.nan, np.nan
+    if what == "true or false":
+        r["camber"] = r["slip_angle"] > 0.0
+    if what == "complex":
+        r["fy"] = r["fy"].astype(complex)
     return r
 
 
@@ -49,6 +55,9 @@ def bad(recording, what):
         ("no overlap", "overlap"),
         ("all missing", "force"),
         ("beyond any measurement", "force"),
+        ("never together", "normal_load, fy"),
+        ("true or false", "camber is true or false"),
+        ("complex", "fy is complex"),
     ],
 )
 def test_what_cannot_be_used_is_said(tire, record, what, word):

@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, RECORDED_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting.setup.checked import check_no_text
-from tire_pipeline.recordings.check import repeated_channels
+from tire_pipeline.recordings.check import in_seconds, repeated_channels
 from tire_pipeline.recordings.spikes import without_spikes
 
 SPIKES = "spikes"
@@ -87,6 +87,7 @@ def numeric(recording: Any) -> pd.DataFrame:
             f"there are several columns of the name {', '.join(twice)}", todo="keep one of each"
         )
     names = [n for n in recording.columns if n in RECORDED_CHANNELS or str(n).startswith("simulated_")]
+    _refuse_no_numbers(recording, names)
     other = [n for n in names if not pd.api.types.is_numeric_dtype(recording[n])]
     changed = {str(n): _numbers(recording[n]) for n in other}
     for name in names:
@@ -96,6 +97,18 @@ def numeric(recording: Any) -> pd.DataFrame:
         if beyond.any():
             changed[str(name)] = pd.Series(np.where(beyond, np.nan, x), recording.index)
     return _without_empty(recording.assign(**changed) if changed else recording, names)
+
+
+def _refuse_no_numbers(recording: pd.DataFrame, names: Iterable[str]) -> None:
+    """Raise if a channel is true or false, or complex: what such a channel is worth is not known."""
+    for name in names:
+        kind = recording[name].dtype.kind
+        if kind in "bc":
+            raise RecordingError(
+                f"{name} is {'true or false' if kind == 'b' else 'complex'}, no real number",
+                where=str(name),
+                todo="give the value that was measured, or leave the column out",
+            )
 
 
 def _without_empty(recording: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:
@@ -112,7 +125,7 @@ def _without_empty(recording: pd.DataFrame, names: Iterable[str]) -> pd.DataFram
 
 def _numbers(column: pd.Series) -> pd.Series:
     if pd.api.types.is_datetime64_any_dtype(column):
-        return (column - column.min()).dt.total_seconds()
+        return in_seconds(column)
     values = pd.to_numeric(column, errors="coerce")
     check_no_text(column, values.to_numpy(dtype=float, na_value=np.nan))
     return values.astype(float)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
@@ -164,6 +164,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     recording = usable_numbers(recording)
     arrays = _arrays(recording)
     time = rising_time(arrays)
+    _check_together(arrays)
     if time is not None:
         _bridge(arrays, notes)
     notes += _on_time(time)
@@ -284,6 +285,19 @@ def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
             f"no force was measured: {values}", where=", ".join(dead), todo="check that the sensor was on"
         )
     notes.append(f"{values} and left out")
+
+
+def _check_together(arrays: Mapping[str, Array]) -> None:
+    """Raise if hardly any row has slip, load and force: a line over holes in all of them measures nothing."""
+    inputs = [n for n in SLIP_AND_LOAD if n in arrays]
+    for force in [n for n in TANGENTIAL_FORCES if n in arrays]:
+        whole = int(np.all([np.isfinite(arrays[n]) for n in (*inputs, force)], axis=0).sum())
+        if whole < LEAST_POINTS:
+            raise RecordingError(
+                f"only {whole} of {arrays[force].size} rows have numbers in all of {', '.join(inputs)}, {force}",
+                where=force,
+                todo="bring the channels to common moments first, or drop those that are mostly empty",
+            )
 
 
 def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
