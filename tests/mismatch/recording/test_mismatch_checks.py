@@ -38,6 +38,8 @@ def bad(recording, what):
         r.loc[::2, "fy"], r.loc[1::2, "normal_load"] = np.nan, np.nan
     if what == "true or false":
         r["camber"] = r["slip_angle"] > 0.0
+    if what == "two units":
+        r.loc[len(r) // 2 :, "slip_angle"] = np.degrees(r["slip_angle"])
     if what == "complex":
         r["fy"] = r["fy"].astype(complex)
     return r
@@ -58,6 +60,7 @@ def bad(recording, what):
         ("never together", "normal_load, fy"),
         ("true or false", "camber is true or false"),
         ("complex", "fy is complex"),
+        ("two units", "no one unit fits all values"),
     ],
 )
 def test_what_cannot_be_used_is_said(tire, record, what, word):

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
@@ -40,6 +41,11 @@ def repair(
         Samples that no repair brings back: stuck or clipped.
     factors : dict of str to float
         Channel -> what it was multiplied by.
+
+    Raises
+    ------
+    RecordingError
+        A repair takes back another one: the channel is not in one unit.
     """
     n = arrays["normal_load"].size
     bad = np.zeros(n, bool)
@@ -79,13 +85,26 @@ def repair(
                     arrays[channel] = arrays[channel] * factor
                     if channel in still:  # else it would be found, and divided, again
                         still[channel] = still[channel] * factor
-                    factors[channel] = factors.get(channel, 1.0) * factor
+                    before = factors.get(channel, 1.0)
+                    factors[channel] = before * factor
+                    if before != 1.0 and np.isclose(factors[channel], 1.0):
+                        raise _of_two_units(channel, finding, findings)
                 kept = signs if finding.axes else findings
                 kept.append(replace(finding, repaired={}))
                 again = True
         if not again:
             break
     return [*findings, *turned(signs)], bad, factors
+
+
+def _of_two_units(channel: str, last: Finding, findings: Iterable[Finding]) -> RecordingError:
+    """Return the error where a repair takes back an earlier one of the same channel."""
+    said = "; ".join(f.text for f in [*findings, last] if channel in f.channel)
+    return RecordingError(
+        f"no one unit fits all values: {said}, one after the other",
+        where=channel,
+        todo="part of the rows are in another unit: convert them, or explain each part by itself",
+    )
 
 
 def open_axes(

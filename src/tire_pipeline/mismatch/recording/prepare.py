@@ -294,7 +294,8 @@ def _check_together(arrays: Mapping[str, Array]) -> None:
         whole = int(np.all([np.isfinite(arrays[n]) for n in (*inputs, force)], axis=0).sum())
         if whole < LEAST_POINTS:
             raise RecordingError(
-                f"only {whole} of {arrays[force].size} rows have numbers in all of {', '.join(inputs)}, {force}",
+                f"only {whole} of {arrays[force].size} rows have numbers in all of "
+                f"{', '.join(inputs)}, {force}",
                 where=force,
                 todo="bring the channels to common moments first, or drop those that are mostly empty",
             )
