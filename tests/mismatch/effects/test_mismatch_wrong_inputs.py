@@ -86,3 +86,20 @@ def test_a_drift_of_the_load_is_a_drift(braked):
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
     drifting = run["normal_load"] + 400.0 * run["time"] / run["time"].iloc[-1]
     assert named(file, run.assign(normal_load=drifting)) == ["sensor_drift"]
+
+
+def test_at_one_load_a_leak_of_the_load_stands_beside_an_offset(tire, record):
+    """Both are one constant force there; an offset alone had 1.00."""
+    recording = record(3)
+    recording = recording[recording["time"] < 15.0]
+    leaking = recording.assign(fy=recording["fy"] + 0.05 * recording["normal_load"])
+    (names,) = [names for names, _ in explain_mismatch(tire, leaking).sets]
+    assert {"force_offset", "crosstalk"} <= set(names)
+
+
+def test_a_slip_that_reads_a_tenth_is_no_unit_of_the_force(tire, record):
+    """A tenth of the slip made Fy look 4.4 times too large, as pounds that were taken for newtons do."""
+    recording = record(3)
+    report = explain_mismatch(tire, recording.assign(slip_angle=0.1 * recording["slip_angle"]))
+    assert report.verdict == "unusable"
+    assert not report.sets

@@ -98,3 +98,9 @@ def test_an_effect_that_gains_by_itself_takes_few_trials(tire, record, monkeypat
     assert not report.effects
     assert math.isfinite(row.seen)
     assert len(trials) < 300
+
+
+def test_a_lag_that_is_short_beside_the_sampling_has_a_size_too(tire, record):
+    """A filter of a tenth of a sample does nothing, from which no size can be told."""
+    rows = {row.name: row for row in explain_mismatch(tire, record(21, rate=10.0)).visible}
+    assert 0.0 < rows["low_pass"].ruled_out < rows["low_pass"].seen < 1.0

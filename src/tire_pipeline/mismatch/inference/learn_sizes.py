@@ -33,7 +33,7 @@ Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are trusted; fewer where they promise too much."""
-_SCALED_SIZES = ("independent", "form_error", "prior", "error", "spread", "wide")
+_SCALED_SIZES = ("independent", "growth", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: cases that nothing can explain must not decide the
@@ -300,7 +300,7 @@ def moved(sizes: LearntSizes, step: float, steps: Mapping[str, float]) -> Learnt
     """Return sizes so many steps away; no part is larger than the whole."""
     factor = {name: float(step**count) for name, count in steps.items()}
     own: dict[str, Any] = {name: getattr(sizes, name) * factor.get(name, 1.0) for name in _SCALED_SIZES}
-    own["independent"] = min(own["independent"], 1.0)
+    own["growth"] = min(own["growth"], 1.0)
     own["background"] = {f: s * factor.get(f, 1.0) for f, s in sizes.background.items()}
     return replace(sizes, **own)
 

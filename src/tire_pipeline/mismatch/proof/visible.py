@@ -35,6 +35,8 @@ Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(1.0 - CHANCE)
 _SIZE_FACTOR = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""
+_LARGER = 4.0
+"""Factor between the sizes at which an effect that is not linear is looked at."""
 _MOST_FORMS = 3
 _SMALLEST_SIZE, _SIZES_TRIED, _HALVINGS = 1e-4, 97, 40
 FALSE = 0.02
@@ -154,11 +156,19 @@ class _Recorded:
         if not any(np.any(c) for c in column.values()):
             return None
         odds = self.odds[variant.effect.expected(self.data)]
-        for _ in range(2):  # the column of the size that is seen, from that of a small one
-            value, error, seen = self._weighed(column, form.columns, most, odds)
-            if not np.isfinite(seen) or seen > most:
+        value, error, seen = self._weighed(column, form.columns, most, odds)
+        while seen > most > size:  # ... and one of little more than a sample hardly anything
+            size = min(_LARGER * size, most)
+            there = self._column(out, size, before)
+            if all(
+                np.allclose(there[o], column[o], CHANCE, CHANCE * np.max(np.abs(there[o]))) for o in there
+            ):
                 break
+            column = there
+            value, error, seen = self._weighed(column, form.columns, most, odds)
+        if seen <= most:  # the column of the size that is seen, from that of a smaller one
             column = self._column(out, seen, before)
+            value, error, seen = self._weighed(column, form.columns, most, odds)
         if np.isfinite(seen) and seen <= most:
             seen = self._beyond_rivals(out, seen, error, before)
         told = (_SEEN - float(NormalDist().inv_cdf(0.5 * FALSE / max(self.count, 1)))) * error

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-AS_WELL = 1.5
-"""Two explanations whose squared residuals differ by less leave the same: sweeps of one tire on one rig
-differ by as much (calspan, the same sweep repeated)."""
+from tire_pipeline.mismatch.effects.sensor.repairs import AS_WELL
 
 
 @dataclass(frozen=True)

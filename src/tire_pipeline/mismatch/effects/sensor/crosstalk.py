@@ -14,8 +14,8 @@ class Crosstalk(Effect):
 
     Covers the leak of the normal load into Fy and Fx, the largest force and so the most common leak, or the
     leaks between Fx and Fy, or all of these, each with a factor of its own. At one load a leak of the normal
-    load is an offset of the force, and is named so. Not covered: leaks into the normal load, which then is
-    wrong as an input (load_gain, load_offset are without the leak), and of moments.
+    load is an offset of the force, and stands beside it. Not covered: leaks into the normal load, which then
+    is wrong as an input (load_gain, load_offset are without the leak), and of moments.
     """
 
     name = "crosstalk"
@@ -43,18 +43,9 @@ class Crosstalk(Effect):
     experiment = "record a pure brake ramp, a pure slip-angle sweep, and straight rolling at three loads"
     order = 86
 
-    def absent(self, data: Context) -> str | None:
-        """Ask for both forces, or for a load that varies."""
-        missing = super().absent(data)
-        if missing is None and not self.starts(data):
-            missing = "only one force is recorded, and the load does not vary"
-        return missing
-
     def starts(self, data: Context) -> list[dict[str, float]]:
-        """With leaks of a load that varies, with leaks between two forces, and with all of these."""
-        leaks: list[tuple[str, ...]] = []
-        if data.varies("normal_load"):
-            leaks.append(_OF_LOAD)
+        """With leaks of the load, with leaks between two forces, and with all of these."""
+        leaks: list[tuple[str, ...]] = [_OF_LOAD]
         if "fx" in data.outputs and "fy" in data.outputs:
             leaks.append(_OF_FORCES)
         if len(leaks) > 1:

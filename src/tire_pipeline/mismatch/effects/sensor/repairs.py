@@ -21,6 +21,10 @@ LEAST_REPAIR_EVIDENCE = FEW * float(np.log(5.0))
 """Fewer count if they say as much for the repair as these do at a fifth of the squares: in twice the log
 likelihood, samples times the logarithm of the squares' ratio."""
 
+AS_WELL = 1.5
+"""Two explanations whose squared residuals differ by less leave the same: sweeps of one tire on one rig
+differ by as much (calspan, the same sweep repeated)."""
+
 _ASKED = {"fx": ("fx",), "fy": ("fy",), "slip_angle": ("fy",), "camber": ("fy",), "slip_ratio": ("fx",)}
 """The force that a channel belongs to: this one has to ask for the repair. A load belongs to both."""
 

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.channels import FORCE_OF_SLIP
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.context import Context, Simulate
-from tire_pipeline.mismatch.effects.sensor.repairs import best_repair
+from tire_pipeline.mismatch.effects.sensor.repairs import AS_WELL, best_repair, unexplained
 from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE_VALUES, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
@@ -21,6 +22,8 @@ _FACTORS_BY_CHANNEL: dict[str, dict[float, tuple[str, str]]] = {
     "fx": _FORCE_FACTORS,
     "fy": _FORCE_FACTORS,
 }
+_GAINS_OF_SLIP = np.geomspace(min(_FORCE_FACTORS), 1.0 / min(_FORCE_FACTORS), 61)
+"""Gains of a slip that are tried, as far from one as the units of a force."""
 _PRESSURE_FACTORS = {
     1e3 / PSI: ("psi", "kPa"),
     1.0 / PSI: ("psi", "Pa"),
@@ -38,7 +41,8 @@ _PRESSURE_RANGE = 4.0
 class UnitError(Effect):
     """A channel is wrong by exactly 57.3, 4.448, 6.895, 9.81, 3.6, 100 or 1000.
 
-    Covers one such factor for angles, slip, load, forces and pressure. Not covered: time, speed and
+    Covers one such factor for angles, slip, load, forces and pressure. A force in another unit is no finding
+    where a gain of its slip explains far more. Not covered: time, speed and
     temperature, of which the forces say too little, and units with an offset.
     """
 
@@ -81,7 +85,7 @@ class UnitError(Effect):
         )
         if both is not None and (best is None or both[0] < 0.7 * best[0]):
             best = both
-        if best is not None:
+        if best is not None and not _by_slip(channels, simulate, best[0], best[1]):
             factors, (name, factor, text) = best[1], best[2]
             repaired = {n: channels[n] * f for n, f in factors.items()}
             parameters = {"ratio": (float(factor), 0.0, "times")}
@@ -89,6 +93,19 @@ class UnitError(Effect):
                 Finding(self.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired)
             )
         return found
+
+
+def _by_slip(
+    channels: Mapping[str, Array], simulate: Simulate, left: float, forces: Mapping[str, float]
+) -> bool:
+    """Whether some gain of a slip explains far more than another unit of its force does."""
+    plain = simulate(channels)
+    return any(
+        unexplained(channels, simulate, {slip: float(gain)}, plain)[1] * AS_WELL < left
+        for slip, force in FORCE_OF_SLIP.items()
+        if force in forces and slip in channels
+        for gain in _GAINS_OF_SLIP
+    )
 
 
 def _taken(of: str, as_if: str) -> str:

@@ -5,8 +5,8 @@ of effects (unit prior after scaling by their priors' spread), ``e`` the errors 
 nuisance: coefficients, the formula's misfit, and a background of usual effects. The *error* is what this
 model still misses. It is white and its size is unknown. Neighbouring samples of a real recording have similar
 errors, so it counts for fewer independent samples than were recorded. The correlation of the residual says
-how many are independent, and a learnt share of these counts. This is the one power to which the likelihood is
-raised.
+how many are independent, and a learnt number of these counts. This is the one power to which the likelihood
+is raised.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ class Likelihood:
     """
 
     def __init__(self, unknown: Unknown, learnt: LearntSizes) -> None:
-        self.unknown, self.learnt = unknown, learnt
+        self.unknown, self.learnt, self._each = unknown, learnt, False
         background = learnt.of(unknown.families)
         depends = any(size.path for size in unknown.sizes.values())
         self._cells: dict[str, list[tuple[Array, Array]]] = {o: [] for o in unknown.gram}
@@ -181,32 +181,39 @@ class Likelihood:
                 values, vectors = np.linalg.eigh(gram * s[:, None] * s[None, :])
                 self._cells[o].append((np.maximum(values, 0.0), s[:, None] * vectors))
 
-    def counting(self, independent: Mapping[str, float]) -> Likelihood:
-        """Return the same for another number of independent samples of each output."""
+    def counting(self, independent: Mapping[str, float], *, each: bool = False) -> Likelihood:
+        """Return the same for another number of independent samples of each output.
+
+        Parameters
+        ----------
+        independent : mapping of float
+        each : bool
+            Whether each of them counts, not as many as was learnt.
+        """
         other = object.__new__(Likelihood)
         other.unknown, other.learnt = replace(self.unknown, independent=independent), self.learnt
+        other._each = each
         other._cells = self._cells
         return other
 
     def at(self, weights: Mapping[str, Weights]) -> Likelihood:
         """Return the same with the misfit at one size for each output, that of some weights; much faster."""
         other = object.__new__(Likelihood)
-        other.unknown, other.learnt = self.unknown, self.learnt
+        other.unknown, other.learnt, other._each = self.unknown, self.learnt, self._each
         other._cells = {o: [(w.values, w.vectors)] for o, w in weights.items()}
         return other
 
     @cached_property
-    def part(self) -> float:
-        """Share that counts of the samples that are independent by their correlation.
-
-        In a run it is the learnt share. Points of a test plan were measured separately, and each counts.
-        """
-        return self.learnt.independent + (1.0 - self.learnt.independent) * self.unknown.apart
-
-    @cached_property
     def count(self) -> Mapping[str, float]:
-        """How many independent samples each output of the recording counts for."""
-        return {o: self.part * n for o, n in self.unknown.independent.items()}
+        """How many independent samples each output of the recording counts for.
+
+        In a run as many as was learnt. Points of a test plan were measured separately, and each counts.
+        """
+        known = self.unknown.independent
+        if self._each:
+            return known
+        apart = self.unknown.apart
+        return {o: apart * n + (1.0 - apart) * self.learnt.count(n) for o, n in known.items()}
 
     def projected(self, products: ColumnProducts) -> Projected:
         """Return what :meth:`evidence` needs of some columns, for many choices among them."""

@@ -33,8 +33,9 @@ class LearntSizes:
         How wrong the form of a named effect is, as a share of it.
     prior : float
         Factor on the spread of all physical priors.
-    independent : float
-        Share of the seemingly independent samples that count as independent.
+    independent, growth : float
+        Of n seemingly independent samples ``independent * n ** growth`` count. What a model misses has a
+        form, so the tenth sample of it says less than the first.
     error, spread : float
         Usual size of the error, over the largest force, and standard deviation of its logarithm.
     wide : float
@@ -57,6 +58,11 @@ class LearntSizes:
     further: float
     unnamed: float
     left: tuple[float, float]
+    growth: float = 1.0
+
+    def count(self, independent: float) -> float:
+        """Return how many of some seemingly independent samples count."""
+        return min(self.independent * independent**self.growth, independent)
 
     def of(self, families: tuple[str, ...]) -> Array:
         """Return the standard deviation of each column of a background, shape (b,)."""

@@ -154,7 +154,7 @@ def _independent(columns: _FormColumns, guess: Likelihood, best: Mapping[str, in
     count: Mapping[str, float] = guess.unknown.independent
     for _ in range(_ROUNDS_OF_COUNTING):
         before = count
-        here = guess.counting({o: n / guess.part for o, n in before.items()})
+        here = guess.counting(before, each=True)
         found = here.evidence(every, np.ones(chosen.size), wide=True)
         count = columns.recording.independent(looked_for, found)
         if all(abs(np.log(count[o] / before[o])) < CHANCE for o in count):
