@@ -28,9 +28,9 @@ turned ones must explain so much, and leave at most this part of the residual wi
 _FORM = 0.15
 """How wrong the form of the model's answer to a channel may be, as a part of it."""
 
-_OF_FILE = 0.003
-"""How far a file may be off in what turned signs change, over the largest force: fits of clean tires break
-the mirror symmetry by 0.12 to 0.2 of their misfit, which is 2% at most."""
+_OF_FILE = 0.25
+"""How far a file may be off in what turned signs change, over the misfit: fits of clean tires break the mirror
+symmetry by 0.12 to 0.2 of it, and so do recordings. Another tire's file leaves more, and its asymmetry says less."""
 
 _AWAY = 0.1
 """Part of the mismatch that turned signs must take away: what is there by chance is small."""
@@ -230,7 +230,7 @@ def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, size
     scatter = score @ score.T + spread * prior
     error = np.sqrt(max((inverse @ scatter @ inverse)[2, 2], 0.0)) / size[2]
     b = fit[2] / size[2]
-    of_file = _OF_FILE * float(np.max(np.abs(base))) / size[2]
+    of_file = _OF_FILE * float(np.sqrt(np.mean(left**2))) / size[2]
     variance = error**2 + _FORM**2 + of_file**2
     if sized and (b - 1.0) ** 2 / (2.0 * variance) > max(-0.5 * np.log(variance), 0.0):
         return -np.inf
