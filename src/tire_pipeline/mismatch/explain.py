@@ -67,8 +67,8 @@ def _settled(
     question = prepared.question
     if not prepared.stopped or question is None:
         return prepared, answer
-    before = residual(analysis.data, [])
-    left = [max(shares_left(residual(analysis.data, s.changes), before).values()) for s in answer.likely]
+    before, few = residual(analysis.data, []), [s for s in answer.likely if len(s.names) < question.figures]
+    left = [max(shares_left(residual(analysis.data, s.changes), before).values()) for s in few]
     if answer.unnamed < level and question.answered(min(left, default=1.0), answer.one_cause > level):
         return replace(prepared, questions=prepared.questions[1:]), answer
     return prepared, nothing(answer.case)

@@ -9,6 +9,7 @@ from weighed import all_but
 
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.recording.identity import figures
 from tire_pipeline.mismatch.recording.prepare import prepare
@@ -31,6 +32,15 @@ def test_a_recording_of_another_size_asks_for_the_file(tmp_path):
     tire = read_tir(shared("tir") / "projectchrono__chrono__mf_185_80R14.tir")
     points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
     check_another(explain_mismatch(tire, points), tmp_path)
+
+
+@pytest.mark.slow
+def test_the_file_of_a_racing_tire_is_not_one_in_other_axes(tmp_path):
+    """It was: other signs with 0.98, and three effects with 0.90 to 1.00."""
+    belt = read_recording(shared("recordings/calspan") / "cornering_part.mat", axes="SAE").iloc[::10]
+    file = fit_magic_formula(belt.drop(columns="slip_ratio"), version="5.2", starts=6).model
+    points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    check_another(explain_mismatch(file, points), tmp_path)
 
 
 def test_another_tire_on_the_rig_asks_for_the_file(tire, record, tmp_path):

@@ -129,6 +129,7 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "fit_magic_formula in Python)",
         "another tire",
         gone,
+        max(int(f.off.sum()) for f in found),
     )
 
 

@@ -24,12 +24,15 @@ class Question:
         Share of the squared mismatch that is gone if what is asked is so. A set of effects that removes as
         much answers the question, and so does one effect that explains the mismatch alone: both need less to
         be assumed.
+    figures : int
+        How many properties of the tire are off if what is asked is so. As many effects assume no less.
     """
 
     why: str
     todo: str
     verdict: str = ""
     removed: float | None = None
+    figures: int = 0
 
     def answered(self, left: float, by_one: bool) -> bool:
         """Whether sets of effects answer the question.
@@ -37,7 +40,7 @@ class Question:
         Parameters
         ----------
         left : float
-            Smallest share of the squared mismatch that a likely set leaves.
+            Smallest share of the squared mismatch that a likely set of fewer effects than ``figures`` leaves.
         by_one : bool
             Whether one effect alone is likely to explain the mismatch.
         """

@@ -29,8 +29,9 @@ _FORM = 0.15
 """How wrong the form of the model's answer to a channel may be, as a part of it."""
 
 _OF_FILE = 0.25
-"""How far a file may be off in what turned signs change, over the misfit: fits of clean tires break the mirror
-symmetry by 0.12 to 0.2 of it, and so do recordings. Another tire's file leaves more, and its asymmetry says less."""
+"""How far a file may be off in what turned signs change, over the misfit: fits of clean tires break the
+mirror symmetry by 0.12 to 0.2 of it, and so do recordings. The file of another tire leaves more, and its
+asymmetry says less."""
 
 _AWAY = 0.1
 """Part of the mismatch that turned signs must take away: what is there by chance is small."""
