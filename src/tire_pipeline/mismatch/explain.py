@@ -10,15 +10,14 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.inference.analysis import Analysis, analyse
+from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.named import with_named
+from tire_pipeline.mismatch.inference.sets.another_tire import probability_of_another_tire
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer, answered, nothing
-from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated, enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.model.data import Choices
-from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.proof.left_out import shares_left
 from tire_pipeline.mismatch.recording.prepare import Prepared, prepare
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
@@ -47,7 +46,7 @@ def weigh(
         sets = enumerate_sets(analysis, learnt)
         step = next(steps)  # evidence times learnt odds says which names are there, and how surely
         answer = answered(sets.case, learnt, level, sets.likelihood)
-        prepared, answer = _settled(prepared, analysis, answer, level)
+        prepared, answer = _settled(prepared, sets, answer, level)
         analysis = with_named(analysis, sets, answer, prepared.data)  # fitted to all samples
     except np.linalg.LinAlgError as error:
         raise RecordingError(
@@ -61,15 +60,14 @@ def weigh(
 
 
 def _settled(
-    prepared: Prepared, analysis: Analysis, answer: SetAnswer, level: float
+    prepared: Prepared, sets: Enumerated, answer: SetAnswer, level: float
 ) -> tuple[Prepared, SetAnswer]:
     """Drop an open question that sets of effects answer; where one stays open, nothing is explained."""
     question = prepared.question
     if not prepared.stopped or question is None:
         return prepared, answer
-    before, few = residual(analysis.data, []), [s for s in answer.likely if len(s.names) < question.figures]
-    left = [max(shares_left(residual(analysis.data, s.changes), before).values()) for s in few]
-    if answer.unnamed < level and question.answered(min(left, default=1.0), answer.one_cause > level):
+    by_sets = question.by_sets and answer.unnamed < level
+    if by_sets and probability_of_another_tire(sets, answer) < level:
         return replace(prepared, questions=prepared.questions[1:]), answer
     return prepared, nothing(answer.case)
 

@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES, beyond_
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, least_spread, moves
 from tire_pipeline.mismatch.model.nominal import loads_of_file
 from tire_pipeline.mismatch.model.plain_forces import plain_forces, slip_at_peak
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.usable import LEAST, Drive, drives
 
@@ -128,8 +129,7 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "the load cell (zero without load, a known weight), or fit a model to this recording (tire fit, or "
         "fit_magic_formula in Python)",
         "another tire",
-        gone,
-        max(int(f.off.sum()) for f in found),
+        by_sets=True,
     )
 
 
@@ -167,8 +167,7 @@ def figures(
     step = max(1, arrays["normal_load"].size // ENOUGH_ROWS)
     a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *states, output) if n in arrays}
     model = _Similar(tire, a, output)
-    free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.beside])
-    recorded, count = a[output], len(FIGURES)
+    free, recorded, count = model.free, a[output], len(FIGURES)
     p, left, columns = _fit(model, recorded, np.flatnonzero(free))
     beside = np.arange(free.size) >= count
     before = _fit(model, recorded, np.flatnonzero(beside))[1] if beside.any() else recorded - model(0.0 * p)
@@ -183,11 +182,71 @@ def figures(
     return Figures(output, values[:count], errors[:count], removed, known)
 
 
+SPREAD_OF_TIRES = (0.2, 0.2, 0.4, 0.4, 0.4)
+"""How far the basic figures of two tires are apart, in logarithms (standard deviation): friction by a fifth,
+stiffness and curvature by half."""
+SIZES_OF_TIRES = (1.0, 0.25, 0.5, 2.0, 4.0)
+"""Load ratings over that of the file which are tried: forces over the rating are alike at loads over it."""
+_SPREAD_OF_THRUST = 0.5
+"""The same of the camber thrust, over load and camber."""
+_SPREAD_OF_SIDES = 0.01
+"""The same of conicity, over load, and of ply steer, rad."""
+
+
+def of_another_tire(
+    tire: Any, arrays: Mapping[str, Array], recorded: Mapping[str, Array]
+) -> dict[str, Array]:
+    """Return what another tire changes of each force, N, and what is left with the likeliest figures.
+
+    Its basic figures and its size, and of the side force the camber thrust and what its two sides differ in.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        Input channels, SI.
+    recorded : mapping of ndarray, shape (n,)
+        Forces, N.
+
+    Returns
+    -------
+    dict of ndarray, shape (n, m + 1)
+        For each force, what each property changes where it is off by its spread among tires, of all forces;
+        last the residual, linear about the file's own.
+    """
+    apart = {n: x for n, x in arrays.items() if n not in RECORDED_STATES}
+    found = {}
+    for output, force in recorded.items():
+        tried = [_likeliest(_Similar(tire, apart, output, size), force) for size in SIZES_OF_TIRES]
+        found[output] = min(tried, key=lambda each: each[2])[:2]
+    none = {output: np.zeros_like(own) for output, (own, _) in found.items()}
+    return {
+        output: np.column_stack([*(own if o == output else none[o] for o, (own, _) in found.items()), rest])
+        for output, (_, rest) in found.items()
+    }
+
+
+def _likeliest(model: _Similar, force: Array) -> tuple[Array, Array, float]:
+    """Return what other properties of a tire change of one force, and what is left, linear about its own."""
+    count = len(FIGURES)
+    p, left, _ = _fit(model, force, np.flatnonzero(model.free))
+    here = model(p)
+    slopes = [(model(p + step) - here) / DIFFERENCE for step in DIFFERENCE * np.eye(p.size)[:count]]
+    rest = force - here + p[:count] @ np.array(slopes)
+    columns = [spread * slope for spread, slope in zip(SPREAD_OF_TIRES, slopes, strict=True)]
+    if model.output == "fy":
+        load, camber = model.points["normal_load"], model.points["camber"]
+        moved = {**model.points, model.slip: model.points[model.slip] + _SPREAD_OF_SIDES}
+        steered = plain_forces(model.tire, **moved)["fy"] - plain_forces(model.tire, **model.points)["fy"]
+        columns += [_SPREAD_OF_THRUST * load * camber, _SPREAD_OF_SIDES * load, steered]
+    return np.column_stack(columns), rest, float(left @ left)
+
+
 class _Similar:
     """The file's force with other basic figures, at the recorded points."""
 
-    def __init__(self, tire: Any, a: Mapping[str, Array], output: str) -> None:
-        self.tire, self.output, self.slip = tire, output, SLIP_OF_FORCE[output]
+    def __init__(self, tire: Any, a: Mapping[str, Array], output: str, size: float = 1.0) -> None:
+        self.tire, self.output, self.slip, self.size = tire, output, SLIP_OF_FORCE[output], size
         zero = np.zeros(a["normal_load"].size)
         self.points = {n: a.get(n, zero) for n in SLIP_AND_LOAD}
         load = self.points["normal_load"]
@@ -201,8 +260,9 @@ class _Similar:
         self.of_states = 2 * len(varying)
         self.camber_unknown = "camber" not in a
         self.beside = self.of_states + int(self.camber_unknown)
-        used = np.abs(self.points[self.slip]) / slip_at_peak(tire, output, load)
+        used = np.abs(self.points[self.slip]) / slip_at_peak(tire, output, load / size)
         self.bend = used / (1.0 + used)
+        self.free = np.array([True, self.loaded, True, self.loaded, True, *[True] * self.beside])
 
     def __call__(self, p: Array) -> Array:
         """Return the force with figures off by ``p``."""
@@ -212,10 +272,10 @@ class _Similar:
         m = friction + by_load * self.excess + of_friction @ self.states
         k = stiffness + stiffness_by_load * self.excess + of_stiffness @ self.states
         slip = self.points[self.slip] * np.exp(k - m + curvature * self.bend)
-        points = {**self.points, self.slip: slip}
+        points = {**self.points, self.slip: slip, "normal_load": self.points["normal_load"] / self.size}
         if self.camber_unknown:
             points["camber"] = np.full(slip.size, p[-1])
-        return np.exp(m) * plain_forces(self.tire, **points)[self.output]
+        return self.size * np.exp(m) * plain_forces(self.tire, **points)[self.output]
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
