@@ -42,7 +42,7 @@ def rising_time(arrays: Mapping[str, Array]) -> Array | None:
         raise RecordingError(
             f"{int((steps == 0).sum())} time stamps are repeated, first at sample {at}",
             where="time",
-            todo="drop the repeated rows: recording.drop_duplicates('time')",
+            todo="use a finer clock, or average the rows of one stamp",
         )
     return time
 
