@@ -14,7 +14,7 @@ from tire_pipeline.magic_formula.fitting.setup.coverage import (
 
 BY_PRESSURE = ("PPY1", "PPY2", "PPY3")
 TIRE = TireModel.from_coefficients(
-    {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PDY2": -0.1, "PKY1": -20, "PKY2": 2, "PEY1": -0.5}, "6.1"
+    {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PDY2": -0.1, "PKY1": -20, "PKY2": 2, "PEY1": -0.5, "UNLOADED_RADIUS": 0.3}, "6.1"
 )
 
 
@@ -70,10 +70,11 @@ def test_a_ripple_that_helps_the_fit_moves_the_force_at_another_pressure_little(
     fit = fit_magic_formula(rows, "6.1", starts=2)
     at = {"slip_angle": np.linspace(-0.18, 0.18, 31), "normal_load": 4000.0, "limits": "ignore"}
     here, there = (fit.model.forces(pressure=p, **at).fy for p in (200e3, 170e3))
-    assert 0.02 < np.abs(here - there).max() / np.abs(here).max() < 0.13
+    assert 0.02 < np.abs(here - there).max() / np.abs(here).max() < 0.16
     freed = TIRE.replace(NOMPRES=200e3, PPY3=0.02 / 0.015)
-    least = freed.forces(**rows.drop(columns="fy").to_dict("series"), limits="ignore").fy
-    assert fit.residuals["fy"].std() < 1.06 * np.std(least - rows["fy"])
+    points = {name: rows[name].to_numpy() for name in ("slip_angle", "normal_load", "pressure")}
+    left = [np.std(m.forces(**points, limits="ignore").fy - rows["fy"]) for m in (fit.model, freed)]
+    assert left[0] < 1.05 * left[1]
     said = [text for text in fit.undetermined if text.startswith(ONE_PRESSURE)]
     assert len(said) == 1
     assert "a fit without the column pressure keeps typical values" in said[0]

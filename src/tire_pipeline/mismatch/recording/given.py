@@ -11,8 +11,10 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, RECORDED_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting.setup.checked import check_no_text
+from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.check import repeated_channels
 from tire_pipeline.recordings.spikes import without_spikes
+from tire_pipeline.recordings.unit_jumps import unit_jumps
 
 SPIKES = "spikes"
 """Key of what was said of spikes, in the attributes of a recording."""
@@ -38,7 +40,7 @@ def usable_numbers(recording: Any) -> pd.DataFrame:
     RecordingError
         As :func:`numeric`.
     """
-    known = numeric(recording)
+    known = _with_unit_changes(numeric(recording))
     whole, remarks = without_spikes(known)
     if not remarks:
         return whole
@@ -47,6 +49,21 @@ def usable_numbers(recording: Any) -> pd.DataFrame:
     whole = without_values(whole, {n: rows for n in FORCE_CHANNELS if n in whole})
     whole.attrs = {**whole.attrs, SPIKES: [*whole.attrs.get(SPIKES, []), *remarks]}
     return whole
+
+
+def _with_unit_changes(recording: pd.DataFrame) -> pd.DataFrame:
+    """Return a recording whose remarks begin with the channels that seem to change their unit."""
+    key = "assumed" if "assumed" in recording.attrs else SPIKES
+    said = recording.attrs.get(key, [])
+    remarks = [
+        f"{jump}, as it seems (it jumps by {in_digits(jump.ratio)}): nothing below holds before this is settled"
+        for jump in unit_jumps(recording)
+    ]
+    if not remarks or remarks[0] in said:
+        return recording
+    changed = recording.copy(deep=False)
+    changed.attrs = {**recording.attrs, key: [*remarks, *said]}
+    return changed
 
 
 def without_values(recording: pd.DataFrame, rows: Mapping[str, np.ndarray]) -> pd.DataFrame:
