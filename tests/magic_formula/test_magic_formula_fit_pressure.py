@@ -14,7 +14,7 @@ from tire_pipeline.magic_formula.fitting.setup.coverage import (
 
 BY_PRESSURE = ("PPY1", "PPY2", "PPY3")
 TIRE = TireModel.from_coefficients(
-    {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PDY2": -0.1, "PKY1": -20, "PKY2": 2, "PEY1": -0.5, "UNLOADED_RADIUS": 0.3}, "6.1"
+    {"FNOMIN": 4000, "UNLOADED_RADIUS": 0.3, "PCY1": 1.3, "PDY1": 1, "PKY1": -20, "PKY2": 2}, "6.1"
 )
 
 

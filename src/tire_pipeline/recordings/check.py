@@ -255,7 +255,7 @@ def _unit_changes(frame: pd.DataFrame) -> list[Issue]:
             "unit_changes",
             "warning",
             str(jump),
-            f"is that so? It jumps by {in_digits(jump.ratio)} there while loads and slips are the same: bring "
+            f"is that so? It jumps by {in_digits(jump.ratio)} there while load and slip are the same: bring "
             "both parts to one unit, or split the file there",
             ((jump.row, jump.row),),
         )

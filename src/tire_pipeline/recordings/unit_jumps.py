@@ -148,7 +148,8 @@ def _divided(
     least = max(_FEWEST, int(_SHARE * len(table)))
     if depth == 0 or len(table) < 2 * least or not ratios:
         return []
-    at = _largest_change(table[:, 0], least)
+    by_load = np.maximum(table[:, 2], 1e-9) if parts is _PARTS else 1.0
+    at = _largest_change(table[:, 0] / by_load, least)
     before = _divided(table[:at], rows[:at], ratios, parts, depth - 1)
     after = _divided(table[at:], rows[at:], ratios, parts, depth - 1)
     first = int(np.searchsorted(rows, before[-1][0])) if before else 0

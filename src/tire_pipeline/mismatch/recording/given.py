@@ -56,7 +56,7 @@ def _with_unit_changes(recording: pd.DataFrame) -> pd.DataFrame:
     key = "assumed" if "assumed" in recording.attrs else SPIKES
     said = recording.attrs.get(key, [])
     remarks = [
-        f"{jump}, as it seems (it jumps by {in_digits(jump.ratio)}): nothing below holds before this is settled"
+        f"{jump}, it seems (it jumps by {in_digits(jump.ratio)}): nothing below holds until that is settled"
         for jump in unit_jumps(recording)
     ]
     if not remarks or remarks[0] in said:
