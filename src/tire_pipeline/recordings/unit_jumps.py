@@ -45,11 +45,11 @@ _WITHIN_SMALL, _WITHIN_LARGE, _LARGE = 0.06, 0.15, 20.0
 """How far a jump may be from the ratio of two units, of its logarithm, below and above a ratio."""
 _SCATTER = 0.4
 """Of the logarithms of the ratios of pairs, between quartiles, at most."""
-_ALIKE = 0.2
+_ALIKE = 0.1
 """Of the logarithms of the ratios of small and of large values, at most."""
 _DEPTH = 4
 """How often a stretch is divided."""
-_PARTS = ((0.1, 0.5), (0.5, 10.0))
+_PARTS = ((0.1, 0.35), (0.5, 10.0))
 _WHOLE = ((0.1, 10.0),)
 """Of the size of the channel: small and large values, both of which jump by the ratio. Friction that changes
 leaves small slips nearly as they are."""
