@@ -45,13 +45,14 @@ _WITHIN_SMALL, _WITHIN_LARGE, _LARGE = 0.06, 0.15, 20.0
 """How far a jump may be from the ratio of two units, of its logarithm, below and above a ratio."""
 _SCATTER = 0.4
 """Of the logarithms of the ratios of pairs, between quartiles, at most."""
-_ALIKE = 0.1
+_ALIKE = 0.2
 """Of the logarithms of the ratios of small and of large values, at most."""
 _DEPTH = 4
 """How often a stretch is divided."""
-_PARTS = ((0.1, 0.35), (0.5, 10.0))
+_PARTS = ((0.1, 0.5), (0.5, 10.0))
 _WHOLE = ((0.1, 10.0),)
-"""Of the size of the channel: small and large values, both of which jump by the ratio. Friction that changes
+"""Of the size of the channel (of a force over its load): small and large values, both of which jump by the
+ratio. Friction that changes
 leaves small slips nearly as they are."""
 
 
@@ -191,9 +192,10 @@ def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, parts: _Par
     nearest = distance.argmin(axis=0)
     pairs = distance[nearest, np.arange(len(two))] < _NEAR
     x, y = one[nearest[pairs], 0], two[pairs, 0]
+    size = x / one[nearest[pairs], 2] if parts is _PARTS else x
     if x.size < _FEWEST or pairs.mean() < 0.1:
         return 0.0
-    share = x / max(float(np.quantile(one[:, 0], 0.95)), 1e-300)
+    share = size / max(float(np.quantile(size, 0.95)) if x.size else 0.0, 1e-300)
     found = []
     for low, high in parts:
         some = (share >= low) & (share < high) & (y > 0.0)
