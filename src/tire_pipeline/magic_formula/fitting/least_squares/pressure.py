@@ -13,13 +13,13 @@ from tire_pipeline.magic_formula.fitting.setup.typical import Pull
 PRESSURE_SLACK = 0.04
 """A fit whose pressures cannot determine their coefficients leaves this much more than the least: as much as
 it may (``SLACK``), less what the search for the least may have missed."""
-_STRENGTHS = (0.01, 1000.0)
+_NEARER_STRENGTHS = (0.01, 1000.0)
 """Of the pull on them: in between lies that of the strongest one that leaves no more than is allowed."""
-_OTHERS = 0.001
+_NEARER_OTHERS = 0.001
 """Strength of the pull on all else towards where the fit stands."""
-_POINTS = 1500
-_HALVINGS = 9
-_ON_ALL_ROWS = (1.1, 1.0, 0.9, 0.75, 0.5)
+_NEARER_POINTS = 1500
+_NEARER_HALVINGS = 9
+_NEARER_ON_ALL_ROWS = (1.1, 1.0, 0.9, 0.75, 0.5)
 """Of the search for it: rows, and halvings on these; then what is tried on all rows, over what came out."""
 
 
@@ -51,21 +51,23 @@ def nearer(
     drawn = Pull(np.where(which, problem.pull.centre, values), problem.pull.spread, problem.pull.strength)
 
     def solved(rows: Problem, hold: float, begin: np.ndarray) -> np.ndarray:
-        strength = one * np.where(which, hold, _OTHERS) * np.sqrt(rows.measured.size / problem.measured.size)
+        strength = (
+            one * np.where(which, hold, _NEARER_OTHERS) * np.sqrt(rows.measured.size / problem.measured.size)
+        )
         part = replace(rows, pull=drawn.times(strength))
         return minimum(part, bounds, begin, loss=loss, width=width)
 
-    thin, at = problem.thinned(_POINTS), values
+    thin, at = problem.thinned(_NEARER_POINTS), values
     limit = most * thin.misfit(values) / max(problem.misfit(values), 1e-300)
-    weak, strong = np.log(_STRENGTHS)
-    for _ in range(_HALVINGS):
+    weak, strong = np.log(_NEARER_STRENGTHS)
+    for _ in range(_NEARER_HALVINGS):
         hold = 0.5 * (weak + strong)
         tried = solved(thin, float(np.exp(hold)), values)
         if thin.left(tried) <= limit:
             weak, at = hold, tried
         else:
             strong = hold
-    for share in _ON_ALL_ROWS:
+    for share in _NEARER_ON_ALL_ROWS:
         tried = solved(problem, share * float(np.exp(weak)), at)
         if problem.left(tried) <= most:
             return min(tried, values, key=lambda x: _far(problem, x, which))

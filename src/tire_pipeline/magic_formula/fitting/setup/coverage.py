@@ -31,13 +31,13 @@ differ by 0.4 (``SPREAD``): half of 0.05 either side changes the force by less t
 WIDE_PRESSURE_SPREAD = 0.15
 """Spread of pressures, over the median, that counts as different without set pressures, as where a tire warms
 up: half of it either side changes the force by three times a formula's own error."""
-_GAP = 0.25
+_PRESSURE_GAP = 0.25
 """Of the range of pressures, that lies empty between two set ones. Of a pressure that scatters, goes evenly
-or as a wave, ``_SHARE_BETWEEN`` of the rows take up to 0.1 of it; between 10 and 12 psi of a flat belt it is
+or as a wave, ``_PRESSURES_BETWEEN`` of the rows take up to 0.1 of it; between 10 and 12 psi of a flat belt it is
 most of it."""
-_SHARE_BETWEEN = 0.02
+_PRESSURES_BETWEEN = 0.02
 _CAMBER_LEVEL = np.deg2rad(1.0)
-_SHARE_OF_EACH = 0.1
+_PRESSURES_OF_EACH = 0.1
 """Of the rows at one load and camber that has to be at another pressure."""
 MIN_SPEED_SPREAD = 0.1
 MIN_SLIP = 0.01
@@ -120,8 +120,8 @@ def _in_levels(pressure: np.ndarray) -> bool:
     """Whether the values lie about levels, with next to nothing between two of them."""
     low, high = bulk(pressure)
     ordered = np.sort(np.clip(pressure, low, high))
-    few = max(1, int(_SHARE_BETWEEN * ordered.size))
-    return float((ordered[few:] - ordered[:-few]).max()) > _GAP * (high - low)
+    few = max(1, int(_PRESSURES_BETWEEN * ordered.size))
+    return float((ordered[few:] - ordered[:-few]).max()) > _PRESSURE_GAP * (high - low)
 
 
 def _pressures_differ_at_a_load(points: Mapping[str, np.ndarray], nominal_load: float, share: float) -> bool:
@@ -132,7 +132,7 @@ def _pressures_differ_at_a_load(points: Mapping[str, np.ndarray], nominal_load: 
     _, group = np.unique(np.column_stack([level, leaning]), axis=0, return_inverse=True)
     least = share * MIN_PRESSURE_SPREAD * max(float(np.median(pressure)), 1.0)
     for rows in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):
-        low, high = np.quantile(pressure[rows], [_SHARE_OF_EACH, 1.0 - _SHARE_OF_EACH])
+        low, high = np.quantile(pressure[rows], [_PRESSURES_OF_EACH, 1.0 - _PRESSURES_OF_EACH])
         if high - low > least:
             return True
     return False
