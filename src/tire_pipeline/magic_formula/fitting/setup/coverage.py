@@ -33,7 +33,7 @@ WIDE_PRESSURE_SPREAD = 0.15
 up: half of it either side changes the force by three times a formula's own error."""
 _PRESSURE_GAP = 0.25
 """Of the range of pressures, that lies empty between two set ones. Of a pressure that scatters, goes evenly
-or as a wave, ``_PRESSURES_BETWEEN`` of the rows take up to 0.1 of it; between 10 and 12 psi of a flat belt it is
+or as a wave, ``_PRESSURES_BETWEEN`` of the rows take up to 0.1; between 10 and 12 psi of a flat belt it is
 most of it."""
 _PRESSURES_BETWEEN = 0.02
 _CAMBER_LEVEL = np.deg2rad(1.0)
