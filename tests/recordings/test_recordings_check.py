@@ -47,6 +47,11 @@ def in_kn():
     return good().assign(normal_load=3.0, fy=lambda d: d["fy"] / 1000.0)
 
 
+def in_two_signs():
+    sign = np.where(np.arange(400) < 250, 1.0, -1.0)
+    return good().assign(normal_load=lambda d: sign * d.normal_load)
+
+
 @pytest.mark.parametrize(
     ("frame", "name", "severity", "rows"),
     [
@@ -66,6 +71,7 @@ def in_kn():
         (good().assign(slip_angle=lambda d: d.slip_angle * 57.3), "angle_in_degrees", "warning", ()),
         (good().assign(slip_ratio=lambda d: d.slip_angle * 100.0), "slip_in_percent", "warning", ()),
         (good().assign(normal_load=-3000.0), "negative_load", "warning", ()),
+        (in_two_signs(), "load_of_both_signs", "warning", ()),
         (good().assign(normal_load=0.0), "no_positive_load", "error", ()),
         (good().assign(pressure=12e3), "implausible_value", "warning", ()),
         (good().assign(pressure=2e6), "implausible_value", "warning", ()),

@@ -3,7 +3,8 @@
 from tire_pipeline.recordings.axle.dart import DART_CAR, read_dart
 from tire_pipeline.recordings.axle.single_track import axle_recording
 from tire_pipeline.recordings.axle.vehicle import Vehicle
-from tire_pipeline.recordings.check import Issue, check_recording
+from tire_pipeline.recordings.check import check_recording
+from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.join import join_recordings
 from tire_pipeline.recordings.read import read_recording
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
-
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.magic_formula.fitting.setup.measured import said_of_locked
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
@@ -23,8 +21,10 @@ from tire_pipeline.recordings.conventions.plausible import (
     unit_stated,
     units_of_larger_loads,
 )
+from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
+from tire_pipeline.recordings.unit_jumps import unit_jumps
 from tire_pipeline.small_loads import in_another_unit_as
 
 LEAST_SAMPLES = 30
@@ -44,47 +44,6 @@ _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
 _NAN_BLOCK = 10
-
-
-@dataclass(frozen=True)
-class Issue:
-    """One finding.
-
-    Parameters
-    ----------
-    name : str
-        Such as `no_force_channel`.
-    severity : {"error", "warning"}
-        With an error the recording cannot be explained.
-    where : str
-        Channel and position, in words.
-    advice : str
-        What can be done.
-    rows : tuple of (int, int)
-        First and last row of each place, at most 20 of them.
-
-    See Also
-    --------
-    check_recording : What finds it.
-
-    Notes
-    -----
-    Rows are counted from zero.
-
-    Examples
-    --------
-    >>> Issue("no_force_channel", "error", "the recording", "give fx, fy or mz").severity
-    'error'
-    """
-
-    name: str
-    severity: Literal["error", "warning"]
-    where: str
-    advice: str
-    rows: tuple[tuple[int, int], ...] = ()
-
-    def __str__(self) -> str:
-        return f"{self.severity}: {self.name} ({self.where}) -> {self.advice}"
 
 
 def check_recording(recording: pd.DataFrame) -> list[Issue]:
@@ -285,7 +244,30 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
             )
         issues += _spikes(str(column), values) if column in _USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
-    return issues + _force_and_load(frame)
+    return issues + _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
+
+
+def _slip_not_measured(frame: pd.DataFrame) -> list[Issue]:
+    """Report a slip ratio that says throughout that the wheel is locked."""
+    if "slip_ratio" not in frame or not pd.api.types.is_numeric_dtype(frame["slip_ratio"]):
+        return []
+    told = [text.partition(": ") for text in said_of_locked(frame, frame["slip_ratio"].to_numpy(dtype=float))]
+    return [Issue("slip_not_measured", "warning", where, taken) for where, _, taken in told]
+
+
+def _unit_changes(frame: pd.DataFrame) -> list[Issue]:
+    """Report channels whose unit changes within the recording."""
+    return [
+        Issue(
+            "unit_changes",
+            "warning",
+            str(jump),
+            f"is that so? It jumps by {in_digits(jump.ratio)} there while load and slip are the same: bring "
+            "both parts to one unit, or split the file there",
+            ((jump.row, jump.row),),
+        )
+        for jump in unit_jumps(frame)
+    ]
 
 
 def _spikes(column: str, values: np.ndarray) -> list[Issue]:
@@ -363,19 +345,7 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
         )
     load = _numbers(frame, "normal_load") if "normal_load" in frame else np.empty(0)
     issues += _friction(frame, forces, load)
-    if load.size and float(np.median(load)) < 0.0:
-        issues.append(
-            Issue(
-                "negative_load",
-                "warning",
-                "normal_load, median below zero",
-                "compression is positive here: an explanation turns the sign; say in which axes the file is",
-            )
-        )
-    elif load.size and not (load > 0).any():
-        issues.append(
-            Issue("no_positive_load", "error", "normal_load", "no wheel stood on the ground: record the load")
-        )
+    issues += _sign_of_load(load)
     against = frame.attrs.get("axes_unclear", "")
     if against:
         issues.append(
@@ -388,6 +358,28 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
             )
         )
     return issues
+
+
+def _sign_of_load(load: np.ndarray) -> list[Issue]:
+    if load.size == 0:
+        return []
+    if of_both_signs(load):
+        where = f"normal_load, {int(np.sum(load < 0.0))} of {load.size} rows below zero"
+        todo = "no wheel pulls at the ground: bring all rows to one sign, compression positive"
+        return [Issue("load_of_both_signs", "warning", where, todo)]
+    if float(np.median(load)) < 0.0:
+        todo = "compression is positive here: an explanation turns the sign; say in which axes the file is"
+        return [Issue("negative_load", "warning", "normal_load, median below zero", todo)]
+    if not (load > 0).any():
+        todo = "no wheel stood on the ground: record the load"
+        return [Issue("no_positive_load", "error", "normal_load", todo)]
+    return []
+
+
+def of_both_signs(load: np.ndarray) -> bool:
+    """Whether large loads of both signs are there in a tenth of the rows or more, shape (n,)."""
+    beyond = np.abs(load) > LEAST_WHOLE * np.max(np.abs(load), initial=0.0)
+    return bool(min(np.mean(beyond & (load < 0.0)), np.mean(beyond & (load > 0.0))) >= LEAST_WHOLE)
 
 
 def _numbers(frame: pd.DataFrame, column: str) -> np.ndarray:

@@ -232,3 +232,12 @@ def test_gaps_and_missing_blocks_are_said(tire, record):
     notes = prepare(tire, recording).notes
     assert any("gap" in note for note in notes)
     assert any("without a number" in note for note in notes)
+
+
+def test_a_load_of_both_signs_is_no_recording_to_explain(tire, record):
+    """It was unexplained, with an equation "in camber" that took 950 N to 354 N."""
+    recording = record(2)
+    half = np.where(np.arange(len(recording)) < len(recording) // 2, 1.0, -1.0)
+    report = explain_mismatch(tire, recording.assign(normal_load=half * recording["normal_load"]))
+    assert report.verdict == "unusable"
+    assert "normal_load is negative in" in report.summary

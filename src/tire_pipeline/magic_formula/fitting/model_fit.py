@@ -13,12 +13,14 @@ from threadpoolctl import threadpool_limits
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.equations.equations_61 import cornering_stiffness
+from tire_pipeline.magic_formula.fitting.least_squares.pressure import PRESSURE_SLACK
 from tire_pipeline.magic_formula.fitting.output_fit import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
 from tire_pipeline.magic_formula.fitting.setup.checked import check_arguments
+from tire_pipeline.magic_formula.fitting.setup.coverage import ONE_PRESSURE, PRESSURE_WITH_LOAD
 from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_points
 from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
@@ -27,6 +29,7 @@ from tire_pipeline.magic_formula.fitting.setup.unlike_tires import unlike_tires
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
+from tire_pipeline.pages.numbers_in_words import in_digits
 
 _MOST_FITTED_POINTS = 20_000
 _POINTS_OF = {
@@ -311,6 +314,7 @@ class _FitNotes:
             self.undetermined.append(
                 f"{reason}: {', '.join(names)} held near {towards}, except where the points demand otherwise"
                 + _unlike_tires(outcome, names)
+                + _said_of_pressure(outcome, reason)
             )
         drawn = [n for n in outcome.fit.open if not any(n in group for group in outcome.released.values())]
         if drawn:
@@ -327,6 +331,17 @@ class _FitNotes:
                 f"{stage.title}: {rows} points are few for {len(outcome.values)} coefficients, "
                 f"which are drawn to {towards}"
             )
+
+
+def _said_of_pressure(outcome: Outcome, reason: str) -> str:
+    """Say what coefficients of pressure are worth that the recorded pressures cannot determine."""
+    if not outcome.without_pressure or reason not in (ONE_PRESSURE, PRESSURE_WITH_LOAD):
+        return ""
+    worth, most = (in_digits(100.0 * x) for x in (outcome.without_pressure, PRESSURE_SLACK))
+    return (
+        f". Typical values would leave {worth}% more than the least, these leave {most}% more: they stand "
+        "for whatever changed along with the pressure; a fit without the column pressure keeps typical values"
+    )
 
 
 def _unlike_tires(outcome: Outcome, names: Sequence[str]) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tire_pipeline.magic_formula.fitting.least_squares.pressure import PRESSURE_SLACK, nearer
 from tire_pipeline.magic_formula.fitting.least_squares.search import (
     SLACK,
     StageFit,
@@ -16,7 +17,12 @@ from tire_pipeline.magic_formula.fitting.least_squares.search import (
     most_typical,
 )
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
-from tire_pipeline.magic_formula.fitting.setup.coverage import ONE_PRESSURE, noise_alone, open_coefficients
+from tire_pipeline.magic_formula.fitting.setup.coverage import (
+    ONE_PRESSURE,
+    PRESSURE_WITH_LOAD,
+    noise_alone,
+    open_coefficients,
+)
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import Stage
 from tire_pipeline.magic_formula.fitting.setup.starts import (
     bounds_of,
@@ -76,6 +82,9 @@ class Outcome:
         Reason -> coefficients that the recording's ranges cannot determine, but that the rows need.
     problem, bounds : Problem, pair of ndarray
         What was solved.
+    without_pressure : float
+        RMS that would be left with typical coefficients of pressure, over the least, minus one: of pressures
+        that cannot determine them. 0 if they were not needed.
     """
 
     values: Mapping[str, float]
@@ -84,6 +93,7 @@ class Outcome:
     released: Mapping[str, Sequence[str]]
     problem: Problem
     bounds: Bounds
+    without_pressure: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -214,7 +224,8 @@ def fit_stage(
     lowest = found.left
     exact = _EXACT_SHARE * float(np.abs(measured).max())
     released: dict[str, list[str]] = {}
-    ripple = set(closed.get(ONE_PRESSURE, ())) - silent
+    by_pressure = [n for why in (ONE_PRESSURE, PRESSURE_WITH_LOAD) for n in closed.get(why, ())]
+    ripple, without_pressure = set(by_pressure) - silent, 0.0
     for later, slack in ((ripple, 0.5 * SLACK), (set[str](), SLACK))[: 2 if ripple else 1]:
         every = [name for name in names if name not in silent | later]
         if set(every) <= set(found.problem.names) or found.left <= exact or are_few(found.problem):
@@ -223,12 +234,17 @@ def fit_stage(
         lowest = min(lowest, wider.left)
         if found.left > (1.0 + slack) * lowest or found.left > bar:
             released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
+            without_pressure = found.left / lowest - 1.0
             found = replace(wider, left=lowest)
     problem, bounds, free = found.problem, found.bounds, list(found.problem.names)
     most = max(min((1.0 + SLACK) * lowest, bar), found.left, exact)
     held = np.isin(free, sorted(known))
-    simpler = setup.simpler(problem, bounds) if ONE_PRESSURE in closed else []  # the richer one knows no more
+    simpler = setup.simpler(problem, bounds) if by_pressure else []  # the richer one knows no more
     values = most_typical(problem, bounds, found.values, options.loss, most, held, simpler)
+    pressure = np.isin(free, by_pressure)
+    if pressure.any() and not are_few(problem):
+        most = max(min((1.0 + PRESSURE_SLACK) * lowest, bar), found.left, exact)
+        values = nearer(problem, bounds, values, options.loss, most, pressure)
     kept = {
         reason: {n: typical[n] for n in group if n not in free}
         for reason, group in closed.items()
@@ -242,4 +258,5 @@ def fit_stage(
         {reason: group for reason, group in released.items() if group},
         problem,
         bounds,
+        without_pressure if pressure.any() else 0.0,
     )

@@ -27,6 +27,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time, seams
 from tire_pipeline.mismatch.recording.usable import (
+    in_two_units,
     judge,
     leave_out_no_pressure,
     leave_out_still_slip,
@@ -193,8 +194,8 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
-    asked = [unusable]
-    if unusable is None and beside is None:
+    asked = [in_two_units(recording), unusable]
+    if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
         axes = open_axes(tire, arrays, time, findings, against)
         asked = [another_tire(tire, arrays, driven), axes]

@@ -15,8 +15,9 @@ from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, largest, moves
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.pages.numbers_in_words import how_many
-from tire_pipeline.recordings.check import unit_stated
+from tire_pipeline.pages.numbers_in_words import how_many, in_digits
+from tire_pipeline.recordings.check import of_both_signs, unit_stated
+from tire_pipeline.recordings.unit_jumps import unit_jumps
 
 Array = np.ndarray
 
@@ -177,6 +178,27 @@ def judge(
         elif d.plain < 0.0:
             notes.append(f"{described(d)}; slip drives it all the same")
     return None, [d for d in counted if d.works]
+
+
+def in_two_units(recording: pd.DataFrame) -> Question | None:
+    """Return the question whether a channel changes its unit or its sign, if it jumps as one would."""
+    load = recording["normal_load"].to_numpy(dtype=float, na_value=np.nan)
+    if of_both_signs(load[np.isfinite(load)]):
+        return Question(
+            f"the recording cannot be explained: normal_load is negative in {int(np.sum(load < 0.0))} of "
+            f"{load.size} rows, and positive in others",
+            "bring all rows to one sign, compression positive",
+            "unusable",
+        )
+    jumps = unit_jumps(recording)
+    if not jumps:
+        return None
+    said = "; ".join(f"{jump} (it jumps by {in_digits(jump.ratio)})" for jump in jumps)
+    return Question(
+        f"the recording cannot be explained: it seems that {said}, while load and slip are the same",
+        "bring both parts to one unit, or explain each part by itself",
+        "unusable",
+    )
 
 
 def standing(arrays: Mapping[str, Array], notes: list[str]) -> Array:

@@ -14,7 +14,7 @@ SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
 _ADDED_BY_PULL = 0.02
 """A pull may add this much to a minimum."""
-_ROBUST_WIDTH = 2.0
+ROBUST_WIDTH = 2.0
 """Residuals beyond this many robust standard deviations count less and less."""
 _SEARCH_ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
 """Of a search: points at most, steps, tolerance."""
@@ -120,11 +120,11 @@ def most_typical(
     """
     largest = float(np.abs(problem.measured).max())
     if are_few(problem):
-        width = _ROBUST_WIDTH * typical.FORMULA_ERROR * largest
+        width = ROBUST_WIDTH * typical.FORMULA_ERROR * largest
         drawn = problem.drawn(typical.FORMULA_ERROR * largest)
         return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
     spread = noise(problem, best, loss)
-    width = max(_ROBUST_WIDTH * spread, 1e-6 * largest)
+    width = max(ROBUST_WIDTH * spread, 1e-6 * largest)
     pulls = [np.where(held, hold, share) for hold, share in (_PULLS if held.any() else _PULLS[-5:])]
 
     def solved(part: Problem, pull: np.ndarray, begin: np.ndarray, tolerance: float) -> np.ndarray:
@@ -194,7 +194,7 @@ def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> S
     spread = noise(problem, values, loss)
     weights = np.ones(residuals.size)
     if loss != "linear" and spread > 0.0:
-        weights = 1.0 / np.sqrt(1.0 + (residuals / (_ROBUST_WIDTH * spread)) ** 2)
+        weights = 1.0 / np.sqrt(1.0 + (residuals / (ROBUST_WIDTH * spread)) ** 2)
     freedom = max(float(np.sum(weights > 0.5)) - np.sum(~bound), 1.0)
     variance = float(np.sum(weights * residuals**2)) / freedom * rows_of_one(residuals)
     columns = problem.jacobian(values) * np.sqrt(weights)[:, None] * problem.pull.spread

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.magic_formula.fitting.setup.measured import bulk
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
     BY_PRESSURE,
     BY_SPEED,
@@ -27,10 +28,22 @@ MIN_PRESSURE_SPREAD = 0.05
 """Spread of pressures, over the median, from which they count as different. A rig that holds one pressure
 lets it ripple by 0.02 to 0.04 as load and slip change. Stiffness goes with a power of pressure in which tires
 differ by 0.4 (``SPREAD``): half of 0.05 either side changes the force by less than a formula's own error."""
+WIDE_PRESSURE_SPREAD = 0.15
+"""Spread of pressures, over the median, that counts as different without set pressures, as where a tire warms
+up: half of it either side changes the force by three times a formula's own error."""
+_PRESSURE_GAP = 0.25
+"""Of the range of pressures, that lies empty between two set ones. Of a pressure that scatters, goes evenly
+or as a wave, ``_PRESSURES_BETWEEN`` of the rows take up to 0.1; between 10 and 12 psi of a flat belt it is
+most of it."""
+_PRESSURES_BETWEEN = 0.02
+_CAMBER_LEVEL = np.deg2rad(1.0)
+_PRESSURES_OF_EACH = 0.1
+"""Of the rows at one load and camber that has to be at another pressure."""
 MIN_SPEED_SPREAD = 0.1
 MIN_SLIP = 0.01
 NO_CAMBER = "no camber sweeps"
 ONE_PRESSURE = "one pressure only"
+PRESSURE_WITH_LOAD = "each pressure at loads or cambers of its own"
 RANGES = ("one load only", "one load only at camber", "one speed only")
 BARELY = 0.5
 """An input that varies by less than this share of what counts as different varies by its noise."""
@@ -69,10 +82,10 @@ def open_coefficients(
         ),
         (_one_sided(points["slip_angle"]), "slip angles of one sign only", ONE_SIDED_SLIP),
         (_one_sided(points["slip_ratio"]), "slip ratios of one sign only", ONE_SIDED_RATIO),
+        (not _pressures_differ(points["pressure"], share), ONE_PRESSURE, BY_PRESSURE),
         (
-            _spread(points["pressure"])
-            <= share * MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
-            ONE_PRESSURE,
+            not _pressures_differ_at_a_load(points, nominal_load, share),
+            PRESSURE_WITH_LOAD,
             BY_PRESSURE,
         ),
         (
@@ -92,11 +105,44 @@ def open_coefficients(
     return found
 
 
+def _pressures_differ(pressure: np.ndarray, share: float) -> bool:
+    """Whether pressures were set that are farther apart than the scatter about each, or differ widely.
+
+    The ripple of one set pressure follows the load and the force, and not the other way round.
+    """
+    spread = _spread(pressure) / max(float(np.median(pressure)), 1.0)
+    if spread <= share * MIN_PRESSURE_SPREAD:
+        return False
+    return share < 1.0 or spread > WIDE_PRESSURE_SPREAD or _in_levels(pressure)
+
+
+def _in_levels(pressure: np.ndarray) -> bool:
+    """Whether the values lie about levels, with next to nothing between two of them."""
+    low, high = bulk(pressure)
+    ordered = np.sort(np.clip(pressure, low, high))
+    few = max(1, int(_PRESSURES_BETWEEN * ordered.size))
+    return float((ordered[few:] - ordered[:-few]).max()) > _PRESSURE_GAP * (high - low)
+
+
+def _pressures_differ_at_a_load(points: Mapping[str, np.ndarray], nominal_load: float, share: float) -> bool:
+    """Whether the pressure differs at one and the same load and camber: else these might do what it does."""
+    pressure = points["pressure"]
+    level = np.round(points["normal_load"] / (_STEP_OF_LEVELS * nominal_load))
+    leaning = np.round(points["camber"] / _CAMBER_LEVEL)
+    _, group = np.unique(np.column_stack([level, leaning]), axis=0, return_inverse=True)
+    least = share * MIN_PRESSURE_SPREAD * max(float(np.median(pressure)), 1.0)
+    for rows in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):
+        low, high = np.quantile(pressure[rows], [_PRESSURES_OF_EACH, 1.0 - _PRESSURES_OF_EACH])
+        if high - low > least:
+            return True
+    return False
+
+
 def _spread(x: np.ndarray) -> float:
     if x.size < 2:
         return 0.0
-    low, high = np.quantile(x, [0.02, 0.98])
-    return float(high - low)
+    low, high = bulk(x)
+    return high - low
 
 
 def _levels(load: np.ndarray, nominal_load: float) -> int:

@@ -89,10 +89,9 @@ def _not_recorded(recording: pd.DataFrame, held: dict[str, np.ndarray]) -> list[
         notes.append(f"{name} holds no number: taken as not recorded")
     if "slip_ratio" not in held:
         return notes
-    parts = _parts(recording)
-    still = [rows for rows in parts if _locked(held["slip_ratio"][rows])]
+    parts, still = _locked_parts(recording, held["slip_ratio"])
+    notes += said_of_locked(recording, held["slip_ratio"])
     for rows in still:
-        notes.append(_said_of_locked(held["slip_ratio"][rows], rows, len(parts)))
         held["slip_ratio"][rows] = 0.0
     if len(still) == len(parts):
         del held["slip_ratio"]
@@ -117,7 +116,31 @@ def _locked(slip_ratio: np.ndarray) -> bool:
     return bool(known.size) and bool(np.abs(np.asarray(bulk(known)) + 1.0).max() <= _NEAR_LOCKED)
 
 
-def _said_of_locked(slip_ratio: np.ndarray, rows: slice, parts: int) -> str:
+def _locked_parts(recording: pd.DataFrame, slip_ratio: np.ndarray) -> tuple[list[slice], list[slice]]:
+    """Return all parts of a recording, and those in which the wheel is locked in nearly every row."""
+    parts = _parts(recording)
+    return parts, [rows for rows in parts if _locked(slip_ratio[rows])]
+
+
+def said_of_locked(recording: pd.DataFrame, slip_ratio: np.ndarray) -> list[str]:
+    """Say of each part in which the slip ratio is a locked wheel's that it was not measured.
+
+    Parameters
+    ----------
+    recording : DataFrame
+        ``attrs["joined"]`` may hold its parts.
+    slip_ratio : ndarray
+
+    Returns
+    -------
+    list of str
+        Empty where it was measured.
+    """
+    parts, still = _locked_parts(recording, slip_ratio)
+    return [_said_of_part(slip_ratio[rows], rows, len(parts)) for rows in still]
+
+
+def _said_of_part(slip_ratio: np.ndarray, rows: slice, parts: int) -> str:
     known = slip_ratio[np.isfinite(slip_ratio)]
     low, high = (f"{x:.4g}" for x in bulk(known))
     values = low if low == high else f"{low} to {high}"

@@ -1,0 +1,74 @@
+"""A unit that changes within a recording is named, and a change of friction is none."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch.recording.prepare import prepare
+from tire_pipeline.recordings import check_recording
+from tire_pipeline.recordings.unit_jumps import unit_jumps
+
+TIRE = TireModel.from_coefficients({"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2})
+ICE = TIRE.replace(PDY1=0.2248, PKY1=-9.5)
+
+
+def sweeps(after: TireModel = TIRE) -> pd.DataFrame:
+    """Twenty sweeps at three loads, the second half with another tire."""
+    rng = np.random.default_rng(1)
+    angle = np.tile(0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 100)), 20)
+    load = np.repeat(np.tile([2000.0, 4000.0, 6000.0, 4000.0], 5), 100)
+    forces = [m.forces(slip_angle=angle, normal_load=load, limits="ignore").fy for m in (TIRE, after)]
+    fy = np.where(np.arange(2000) < 1000, *forces) + 30.0 * rng.standard_normal(2000)
+    columns = {"time": 0.01 * np.arange(2000), "slip_angle": angle, "normal_load": load, "fy": fy}
+    return pd.DataFrame(columns | {"pressure": 200e3})
+
+
+def scaled(channel: str, factor: float) -> pd.DataFrame:
+    table = sweeps()
+    table.loc[1000:, channel] *= factor
+    return table
+
+
+@pytest.mark.parametrize(
+    ("channel", "factor", "before", "after"),
+    [
+        ("fy", 1e-3, "N", "kN"),
+        ("fy", 0.2248, "N", "lbf"),
+        ("fy", 4.448, "lbf", "N"),
+        ("slip_angle", 57.3, "rad", "deg"),
+        ("slip_angle", 1 / 57.3, "deg", "rad"),
+        ("normal_load", 1e-3, "N", "kN"),
+        ("pressure", 1 / 6894.76, "Pa", "psi"),
+    ],
+)
+def test_channel_row_time_and_units_are_named(channel, factor, before, after):
+    (jump,) = unit_jumps(scaled(channel, factor))
+    assert (jump.channel, jump.before, jump.after) == (channel, before, after)
+    assert jump.row == pytest.approx(1000, abs=30)
+    assert jump.time == pytest.approx(10.0, abs=0.3)
+    (issue,) = [i for i in check_recording(scaled(channel, factor)) if i.name == "unit_changes"]
+    assert f"{channel} is in {before}" in issue.where
+    assert issue.rows == ((jump.row, jump.row),)
+
+
+@pytest.mark.parametrize("after", [TIRE, ICE, TIRE.replace(PDY1=0.2248), TIRE.replace(PDY1=0.5)])
+def test_friction_is_no_unit(after):
+    assert unit_jumps(sweeps(after)) == []
+
+
+def test_nothing_is_explained_from_a_channel_in_two_units():
+    prepared = prepare(TIRE, scaled("fy", 0.2248))
+    assert prepared.stopped == "unusable"
+    assert "fy is in N up to about row" in prepared.question.why
+    assert not prepare(TIRE, sweeps()).stopped
+
+
+def test_a_slip_ratio_that_says_locked_throughout_was_not_measured():
+    table = sweeps()
+    table["slip_ratio"] = -1.0 + 1e-3 * np.random.default_rng(0).standard_normal(len(table))
+    (issue,) = [i for i in check_recording(table) if i.name == "slip_not_measured"]
+    assert "a locked wheel" in issue.where
+    assert issue.advice == "taken as not measured, and as 0"
+    table["slip_ratio"] = np.linspace(-1.0, 0.0, len(table))
+    assert "slip_not_measured" not in {i.name for i in check_recording(table)}
