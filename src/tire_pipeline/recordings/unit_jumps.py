@@ -188,7 +188,7 @@ def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, parts: _Jum
     nearest = distance.argmin(axis=0)
     pairs = distance[nearest, np.arange(len(two))] < _JUMP_NEAR
     x, y = one[nearest[pairs], 0], two[pairs, 0]
-    size = x / one[nearest[pairs], 2] if parts is _JUMP_PARTS else x
+    size = x / np.maximum(one[nearest[pairs], 2], 1e-9) if parts is _JUMP_PARTS else x
     if x.size < _JUMP_FEWEST or pairs.mean() < 0.1:
         return 0.0
     share = size / max(float(np.quantile(size, 0.95)) if x.size else 0.0, 1e-300)
