@@ -10,7 +10,7 @@ from weighed import all_but
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import fit_magic_formula
-from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.recording.identity import figures
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
@@ -53,17 +53,20 @@ def test_another_tire_on_the_rig_asks_for_the_file(tire, record, tmp_path):
 
 @pytest.mark.long
 def test_public_files_against_real_recordings_are_another_tire():
-    """None of the 16 is of one of these tires; friction and stiffness alone may be a state of the same."""
+    """None of the 16 is of one of these tires; friction and stiffness alone may be a state of the same.
+
+    The question is asked in nine of ten, and sets of effects answer it in few: 22 of 32 had names above 0.9.
+    """
     calspan = read_recording(shared("recordings/calspan") / "cornering_part.mat", axes="SAE").iloc[::5]
     points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
     recordings = (calspan[calspan["pressure"] > 75e3].drop(columns="slip_ratio"), points)
-    asked = [
-        prepare(read_tir(file), recording).stopped == "another tire"
-        for file in sorted(shared("tir").glob("*.tir"))
-        for recording in recordings
-    ]
-    assert len(asked) == 32
+    files = [read_tir(file) for file in sorted(shared("tir").glob("*.tir"))]
+    pairs = [(tire, recording) for tire in files for recording in recordings]
+    assert len(pairs) == 32
+    asked = [prepare(*pair).stopped == "another tire" for pair in pairs]
     assert np.mean(asked) >= 0.9
+    told = [Explainer().weigh(*pair).prepared.stopped == "another tire" for pair in pairs]
+    assert np.mean(told) >= 0.75
 
 
 @pytest.mark.parametrize(
