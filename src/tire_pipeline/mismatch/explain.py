@@ -67,7 +67,7 @@ def _settled(
     if not prepared.stopped or question is None:
         return prepared, answer
     by_sets = question.by_sets and answer.unnamed < level
-    if by_sets and probability_of_another_tire(sets, answer) < level:
+    if by_sets and probability_of_another_tire(sets) < level:
         return replace(prepared, questions=prepared.questions[1:]), answer
     return prepared, nothing(answer.case)
 
