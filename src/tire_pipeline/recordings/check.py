@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
-from tire_pipeline.magic_formula.fitting.setup.measured import said_of_locked
+from tire_pipeline.magic_formula.fitting.setup.measured import locked_parts
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
@@ -44,6 +44,8 @@ _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
 _NAN_BLOCK = 10
+_BOTH_SIGNS = 0.1
+"""Of the largest load, beyond which its sign is no noise; and of the rows, for each sign."""
 
 
 def check_recording(recording: pd.DataFrame) -> list[Issue]:
@@ -251,7 +253,8 @@ def _slip_not_measured(frame: pd.DataFrame) -> list[Issue]:
     """Report a slip ratio that says throughout that the wheel is locked."""
     if "slip_ratio" not in frame or not pd.api.types.is_numeric_dtype(frame["slip_ratio"]):
         return []
-    told = [text.partition(": ") for text in said_of_locked(frame, frame["slip_ratio"].to_numpy(dtype=float))]
+    locked = locked_parts(frame, frame["slip_ratio"].to_numpy(dtype=float))
+    told = [said.partition(": ") for _, said in locked]
     return [Issue("slip_not_measured", "warning", where, taken) for where, _, taken in told]
 
 
@@ -378,8 +381,8 @@ def _sign_of_load(load: np.ndarray) -> list[Issue]:
 
 def of_both_signs(load: np.ndarray) -> bool:
     """Whether large loads of both signs are there in a tenth of the rows or more, shape (n,)."""
-    beyond = np.abs(load) > LEAST_WHOLE * np.max(np.abs(load), initial=0.0)
-    return bool(min(np.mean(beyond & (load < 0.0)), np.mean(beyond & (load > 0.0))) >= LEAST_WHOLE)
+    beyond = np.abs(load) > _BOTH_SIGNS * np.max(np.abs(load), initial=0.0)
+    return bool(min(np.mean(beyond & (load < 0.0)), np.mean(beyond & (load > 0.0))) >= _BOTH_SIGNS)
 
 
 def _numbers(frame: pd.DataFrame, column: str) -> np.ndarray:

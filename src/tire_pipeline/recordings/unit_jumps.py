@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS, FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.pages.numbers_in_words import in_digits
-from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 _JUMP_UNITS = {
@@ -53,7 +53,6 @@ ratio. Friction that changes leaves small slips nearly as they are."""
 
 
 _JumpRatios = Mapping[float, tuple[str, str]]
-_JumpParts = Sequence[tuple[float, float]]
 
 
 class UnitJump(NamedTuple):
@@ -109,28 +108,27 @@ def unit_jumps(recording: pd.DataFrame) -> list[UnitJump]:
     for name, others in _DRIVEN_BY.items():
         if name not in held or not set(others) <= set(held):
             continue
-        unit = find_unit(recording.attrs.get("file_units", {}).get(name)) or find_unit(known[name].unit)
-        assert unit is not None
-        ratios = _ratios(known[name].dimension, unit.factor, known[name].unit, recording, name)
+        ratios = _ratios(known[name], recording.attrs.get("file_units", {}).get(name))
         table = np.abs(np.column_stack([held[n] for n in (name, *others)]))
         rows = np.flatnonzero(np.isfinite(table).all(axis=1))
-        parts = _JUMP_PARTS if name in FORCE_CHANNELS else _JUMP_WHOLE
+        jumps = _divided(table[rows], rows, ratios, _JUMP_DEPTH, of_force=name in FORCE_CHANNELS)
         found += [
             UnitJump(name, row, float(held["time"][row]) if "time" in held else np.nan, *units)
-            for row, units in _divided(table[rows], rows, ratios, parts, _JUMP_DEPTH)
+            for row, units in jumps
         ]
     return sorted(found, key=lambda jump: jump.row)
 
 
-def _ratios(dimension: str, factor: float, si: str, recording: pd.DataFrame, name: str) -> _JumpRatios:
-    """Return value after over before -> unit before and after."""
-    stated = str(recording.attrs.get("file_units", {}).get(name) or si)
-    found: dict[float, tuple[str, str]] = {}
-    for other in _JUMP_UNITS.get(dimension, ()):
+def _ratios(channel: Channel, stated: str | None) -> _JumpRatios:
+    """Return value after over before -> unit before and after, for the unit that a file states."""
+    unit = find_unit(stated) or find_unit(channel.unit)
+    assert unit is not None
+    own, found = str(stated or channel.unit), dict[float, tuple[str, str]]()
+    for other in _JUMP_UNITS.get(channel.dimension, ()):
         of_other = UNITS_BY_NAME[other.lower()].factor
-        if not np.isclose(of_other, factor):
-            found[factor / of_other] = (stated, other)
-            found[of_other / factor] = (other, stated)
+        if not np.isclose(of_other, unit.factor):
+            found[unit.factor / of_other] = (own, other)
+            found[of_other / unit.factor] = (other, own)
     return found
 
 
@@ -139,21 +137,25 @@ def _numbers(recording: pd.DataFrame, name: str) -> np.ndarray:
 
 
 def _divided(
-    table: np.ndarray, rows: np.ndarray, ratios: _JumpRatios, parts: _JumpParts, depth: int
+    table: np.ndarray, rows: np.ndarray, ratios: _JumpRatios, depth: int, *, of_force: bool
 ) -> list[tuple[int, tuple[str, str, float]]]:
     """Return rows from which on the first column is in another unit, and the units."""
     least = max(_JUMP_FEWEST, int(_JUMP_SHARE * len(table)))
     if depth == 0 or len(table) < 2 * least or not ratios:
         return []
-    by_load = np.maximum(table[:, 2], 1e-9) if parts is _JUMP_PARTS else 1.0
-    at = _largest_change(table[:, 0] / by_load, least)
-    before = _divided(table[:at], rows[:at], ratios, parts, depth - 1)
-    after = _divided(table[at:], rows[at:], ratios, parts, depth - 1)
+    at = _largest_change(_size(table, of_force=of_force), least)
+    before = _divided(table[:at], rows[:at], ratios, depth - 1, of_force=of_force)
+    after = _divided(table[at:], rows[at:], ratios, depth - 1, of_force=of_force)
     first = int(np.searchsorted(rows, before[-1][0])) if before else 0
     last = int(np.searchsorted(rows, after[0][0])) if after else len(rows)
-    ratio = _ratio_at_same_conditions(table[first:at], table[at:last], parts)
+    ratio = _ratio_at_same_conditions(table[first:at], table[at:last], of_force=of_force)
     units = next((u for r, u in ratios.items() if ratio and abs(np.log(ratio / r)) < _within(r)), None)
     return [*before, *([(int(rows[at]), (*units, ratio))] if units else []), *after]
+
+
+def _size(table: np.ndarray, *, of_force: bool) -> np.ndarray:
+    """Return the values of a channel; of a force, over the load."""
+    return table[:, 0] / np.maximum(table[:, 2], 1e-9) if of_force else table[:, 0]
 
 
 def _within(ratio: float) -> float:
@@ -170,7 +172,7 @@ def _largest_change(values: np.ndarray, least: int) -> int:
     return int(at[np.argmin(left)])
 
 
-def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, parts: _JumpParts) -> float:
+def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, *, of_force: bool) -> float:
     """Return values after over before, where all else is the same; 0 where they tell nothing."""
     sizes = np.maximum(np.quantile(np.vstack([before, after])[:, 1:], 0.9, axis=0), 1e-300)
     one, two = (
@@ -179,7 +181,7 @@ def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, parts: _Jum
     )
     if not sizes.size:
         return _ratio_of_levels(before[:, 0], after[:, 0])
-    if parts is _JUMP_WHOLE:  # an input: without a force, or a slip, loads and slips may be any
+    if not of_force:  # an input: without a force, or a slip, loads and slips may be any
         one, two = (part[part[:, 1] > _JUMP_CLEAR * sizes[0]] for part in (one, two))
     if not len(one) or not len(two):
         return 0.0
@@ -188,12 +190,11 @@ def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, parts: _Jum
     nearest = distance.argmin(axis=0)
     pairs = distance[nearest, np.arange(len(two))] < _JUMP_NEAR
     x, y = one[nearest[pairs], 0], two[pairs, 0]
-    size = x / np.maximum(one[nearest[pairs], 2], 1e-9) if parts is _JUMP_PARTS else x
     if x.size < _JUMP_FEWEST or pairs.mean() < 0.1:
         return 0.0
-    share = size / max(float(np.quantile(size, 0.95)) if x.size else 0.0, 1e-300)
-    found = []
-    for low, high in parts:
+    size, found = _size(one[nearest[pairs]], of_force=of_force), []
+    share = size / max(float(np.quantile(size, 0.95)), 1e-300)
+    for low, high in _JUMP_PARTS if of_force else _JUMP_WHOLE:
         some = (share >= low) & (share < high) & (y > 0.0)
         if some.sum() < _JUMP_FEWEST // 3:
             return 0.0

@@ -169,7 +169,7 @@ class _Recorded:
         if seen <= most:  # the column of the size that is seen, from that of a smaller one
             column = self._column(out, seen, before)
             value, error, seen = self._weighed(column, form.columns, most, odds)
-        if np.isfinite(seen) and seen <= most:
+        if seen <= most:
             seen = self._beyond_rivals(out, seen, error, before)
         told = (_SEEN - float(NormalDist().inv_cdf(0.5 * FALSE / max(self.count, 1)))) * error
         return Sight(variant, parameter, self._possible(out, seen), self._possible(out, told), value, error)

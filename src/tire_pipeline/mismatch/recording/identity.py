@@ -48,6 +48,16 @@ RECORDED_STATES = ("pressure", "tread_temperature")
 
 _LARGEST_FIGURE = 2.0
 
+SPREAD_OF_TIRES = (0.2, 0.2, 0.4, 0.4, 0.4)
+"""How far the basic figures of two tires are apart, in logarithms (standard deviation): friction by a fifth,
+stiffness and curvature by half."""
+SIZES_OF_TIRES = (1.0, 0.25, 0.5, 2.0, 4.0)
+"""Load ratings over that of the file which are tried: forces over the rating are alike at loads over it."""
+_SPREAD_OF_THRUST = 0.5
+"""The same of the camber thrust, over load and camber."""
+_SPREAD_OF_SIDES = 0.01
+"""The same of conicity, over load, and of ply steer, rad."""
+
 
 @dataclass(frozen=True)
 class Figures:
@@ -180,17 +190,6 @@ def figures(
     known = np.ones(count, bool)
     known[list(_LOADED)] = not beyond_known(a["normal_load"], loads_of_file(tire))
     return Figures(output, values[:count], errors[:count], removed, known)
-
-
-SPREAD_OF_TIRES = (0.2, 0.2, 0.4, 0.4, 0.4)
-"""How far the basic figures of two tires are apart, in logarithms (standard deviation): friction by a fifth,
-stiffness and curvature by half."""
-SIZES_OF_TIRES = (1.0, 0.25, 0.5, 2.0, 4.0)
-"""Load ratings over that of the file which are tried: forces over the rating are alike at loads over it."""
-_SPREAD_OF_THRUST = 0.5
-"""The same of the camber thrust, over load and camber."""
-_SPREAD_OF_SIDES = 0.01
-"""The same of conicity, over load, and of ply steer, rad."""
 
 
 def of_another_tire(

@@ -169,8 +169,7 @@ def judge(
     counted = judged(found)
     if not any(d.works for d in counted):
         worst = max(counted, key=lambda d: d.size)
-        why = f"the recording cannot be explained: {described(worst)}"
-        return Question(why, look_at(worst, arrays), "unusable"), []
+        return _unusable(described(worst), look_at(worst, arrays)), []
     for d in counted:
         if not d.works:
             del arrays[d.output]
@@ -184,21 +183,19 @@ def in_two_units(recording: pd.DataFrame) -> Question | None:
     """Return the question whether a channel changes its unit or its sign, if it jumps as one would."""
     load = recording["normal_load"].to_numpy(dtype=float, na_value=np.nan)
     if of_both_signs(load[np.isfinite(load)]):
-        return Question(
-            f"the recording cannot be explained: normal_load is negative in {int(np.sum(load < 0.0))} of "
-            f"{load.size} rows, and positive in others",
-            "bring all rows to one sign, compression positive",
-            "unusable",
-        )
+        rows = f"{int(np.sum(load < 0.0))} of {load.size} rows"
+        why = f"normal_load is negative in {rows}, and positive in others"
+        return _unusable(why, "bring all rows to one sign, compression positive")
     jumps = unit_jumps(recording)
     if not jumps:
         return None
     said = "; ".join(f"{jump} (it jumps by {in_digits(jump.ratio)})" for jump in jumps)
-    return Question(
-        f"the recording cannot be explained: it seems that {said}, while load and slip are the same",
-        "bring both parts to one unit, or explain each part by itself",
-        "unusable",
-    )
+    why = f"it seems that {said}, while load and slip are the same"
+    return _unusable(why, "bring both parts to one unit, or explain each part by itself")
+
+
+def _unusable(why: str, todo: str) -> Question:
+    return Question(f"the recording cannot be explained: {why}", todo, "unusable")
 
 
 def standing(arrays: Mapping[str, Array], notes: list[str]) -> Array:

@@ -89,11 +89,11 @@ def _not_recorded(recording: pd.DataFrame, held: dict[str, np.ndarray]) -> list[
         notes.append(f"{name} holds no number: taken as not recorded")
     if "slip_ratio" not in held:
         return notes
-    parts, still = _locked_parts(recording, held["slip_ratio"])
-    notes += said_of_locked(recording, held["slip_ratio"])
-    for rows in still:
+    still = locked_parts(recording, held["slip_ratio"])
+    for rows, said in still:
+        notes.append(said)
         held["slip_ratio"][rows] = 0.0
-    if len(still) == len(parts):
+    if len(still) == len(_parts(recording)):
         del held["slip_ratio"]
     return notes
 
@@ -116,14 +116,8 @@ def _locked(slip_ratio: np.ndarray) -> bool:
     return bool(known.size) and bool(np.abs(np.asarray(bulk(known)) + 1.0).max() <= _NEAR_LOCKED)
 
 
-def _locked_parts(recording: pd.DataFrame, slip_ratio: np.ndarray) -> tuple[list[slice], list[slice]]:
-    """Return all parts of a recording, and those in which the wheel is locked in nearly every row."""
-    parts = _parts(recording)
-    return parts, [rows for rows in parts if _locked(slip_ratio[rows])]
-
-
-def said_of_locked(recording: pd.DataFrame, slip_ratio: np.ndarray) -> list[str]:
-    """Say of each part in which the slip ratio is a locked wheel's that it was not measured.
+def locked_parts(recording: pd.DataFrame, slip_ratio: np.ndarray) -> list[tuple[slice, str]]:
+    """Return the parts of a recording in which the wheel is locked in nearly every row, each with a remark.
 
     Parameters
     ----------
@@ -133,11 +127,12 @@ def said_of_locked(recording: pd.DataFrame, slip_ratio: np.ndarray) -> list[str]
 
     Returns
     -------
-    list of str
-        Empty where it was measured.
+    list of (slice, str)
+        Its rows, and that the slip ratio was not measured there; empty where it was.
     """
-    parts, still = _locked_parts(recording, slip_ratio)
-    return [_said_of_part(slip_ratio[rows], rows, len(parts)) for rows in still]
+    parts = _parts(recording)
+    still = [rows for rows in parts if _locked(slip_ratio[rows])]
+    return [(rows, _said_of_part(slip_ratio[rows], rows, len(parts))) for rows in still]
 
 
 def _said_of_part(slip_ratio: np.ndarray, rows: slice, parts: int) -> str:

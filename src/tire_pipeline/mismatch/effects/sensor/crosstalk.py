@@ -47,9 +47,7 @@ class Crosstalk(Effect):
         """With leaks of the load, with leaks between two forces, and with all of these."""
         leaks: list[tuple[str, ...]] = [_OF_LOAD]
         if "fx" in data.outputs and "fy" in data.outputs:
-            leaks.append(_OF_FORCES)
-        if len(leaks) > 1:
-            leaks.append((*_OF_FORCES, *_OF_LOAD))
+            leaks += [_OF_FORCES, (*_OF_FORCES, *_OF_LOAD)]
         return [{**self.zeros(data), **dict.fromkeys(names, TOO_SMALL_TO_SEE)} for names in leaks]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:

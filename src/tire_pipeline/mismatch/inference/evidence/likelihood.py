@@ -11,7 +11,7 @@ is raised.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -55,6 +55,13 @@ class ColumnProducts:
 
     own: Mapping[str, Array]
     nuisance: Mapping[str, Array]
+
+    def of_forces(self, forces: Collection[str]) -> ColumnProducts:
+        """Return those of some of the forces."""
+        return ColumnProducts(
+            {o: a for o, a in self.own.items() if o in forces},
+            {o: a for o, a in self.nuisance.items() if o in forces},
+        )
 
     def take(self, columns: Sequence[int] | Array) -> ColumnProducts:
         """Return the products of some of the columns, with the residual."""
@@ -220,9 +227,10 @@ class Likelihood:
         return self.projected_together([products])[0]
 
     def projected_together(self, every: Sequence[ColumnProducts]) -> list[Projected]:
-        """Return :meth:`projected` of each of many columns; one large product takes less time than many."""
+        """Return :meth:`projected` of each of many columns, of the same forces, by one large product."""
         parts: list[dict[str, Array]] = [{} for _ in every]
-        for o, cells in self._cells.items():
+        for o in every[0].own:
+            cells = self._cells[o]
             nuisance = [each.nuisance[o] for each in every]
             cuts = np.cumsum([x.shape[1] for x in nuisance])[:-1]
             whole = np.hstack(nuisance)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from dataclasses import replace
 
 import numpy as np
 import scipy
 
-from tire_pipeline.channels import FORCE_OF_SLIP
-from tire_pipeline.mismatch.inference.evidence.hypotheses import log_prior, scales
-from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood, Projected
-from tire_pipeline.mismatch.inference.evidence.products import OfSet
+from tire_pipeline.channels import SLIP_OF_FORCE
+from tire_pipeline.mismatch.inference.evidence.hypotheses import log_prior, plain_evidence
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.recording.identity import SIZES_OF_TIRES, of_another_tire
 
@@ -27,28 +25,14 @@ def probability_of_another_tire(sets: Enumerated) -> float:
     sets : Enumerated
     """
     likelihood, data = sets.likelihood, sets.products.data
-    driven = {force for slip, force in FORCE_OF_SLIP.items() if data.varies(slip) and force in data.recorded}
-    channels = {name: data.get(name) for name in data.channels}
-    columns = of_another_tire(data.tire, channels, data.recorded)
-    known = _of_forces(likelihood.projected(sets.products.of(columns)), driven)
+    driven = {o: x for o, x in data.recorded.items() if data.varies(SLIP_OF_FORCE[o])}
+    if not driven:
+        return 0.0
+    columns = of_another_tire(data.tire, {name: data.get(name) for name in data.channels}, driven)
     ones = np.ones(next(iter(columns.values())).shape[1] - 1)
-    other = likelihood.evidence(known, ones, tailed=np.zeros(ones.size, bool)).value
+    other = likelihood.evidence(sets.products.of(columns), ones, tailed=np.zeros(ones.size, bool)).value
     other -= len(driven) * np.log(len(SIZES_OF_TIRES))
-    own = np.array([_log_evidence(likelihood, each, driven) for each in sets.sets])
+    parts = [replace(each, products=each.products.of_forces(driven)) for each in sets.sets]
+    own = np.array([plain_evidence(likelihood, each) for each in parts])
     own += log_prior(sets.case, likelihood.learnt)[: own.size]
     return float(scipy.special.expit(other - scipy.special.logsumexp(own)))
-
-
-def _log_evidence(likelihood: Likelihood, each: OfSet, forces: Collection[str]) -> float:
-    """Return the log evidence of a set with nothing unnamed in some of the forces."""
-    scale = scales(each, likelihood.learnt)
-    known = _of_forces(likelihood.projected(each.plain), forces)
-    tailed, positive = each.tailed(scale.size), each.positive(scale.size)
-    return likelihood.evidence(known, scale, tailed=tailed, positive=positive).value + each.spread
-
-
-def _of_forces(products: Projected, forces: Collection[str]) -> Projected:
-    return Projected(
-        {o: x for o, x in products.own.items() if o in forces},
-        {o: x for o, x in products.parts.items() if o in forces},
-    )
