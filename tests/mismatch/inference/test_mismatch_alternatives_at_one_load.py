@@ -29,3 +29,24 @@ def test_a_stiffness_at_one_load_is_named_with_the_compliance_it_looks_like(one_
     softer = pd.DataFrame({**{n: rows[n] for n in names}, "slip_angle": rows["slip_angle"] / factor})
     sets = named_sets(tire, softer)
     assert any({"stiffness_scale", "compliance"} <= names for names in sets), sets
+
+
+@pytest.mark.parametrize("late", [0.08, 0.12])
+def test_a_late_force_at_one_speed_is_named_with_the_lags_it_looks_like(one_load, late):
+    tire, rows = one_load
+    late_force = np.interp(rows["time"] - late, rows["time"], rows["fy"])
+    recording = rows[["time", "normal_load", "slip_angle", "speed"]].assign(fy=late_force)
+    sets = named_sets(tire, recording)
+    assert any({"relaxation_length", "low_pass", "time_delay"} <= names for names in sets), sets
+
+
+@pytest.mark.parametrize("lost", [0.15, 0.2])
+def test_a_friction_that_fades_with_friction_work_is_wear_or_heat_that_nobody_measured(one_load, lost):
+    tire, rows = one_load
+    power = np.abs(rows["fy"] * np.sin(rows["slip_angle"])) * rows["speed"]
+    worked = np.cumsum(power) / np.sum(power)
+    recording = rows[["time", "normal_load", "slip_angle", "speed"]].assign(
+        fy=rows["fy"] * (1.0 - lost * worked)
+    )
+    sets = named_sets(tire, recording)
+    assert any({"wear", "temperature"} <= names for names in sets), sets

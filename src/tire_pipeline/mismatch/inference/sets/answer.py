@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     hypotheses,
     log_evidence,
@@ -136,7 +137,8 @@ def answered(
     )
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
-    sets = _named(probabilities, without, best, hidden, level)
+    as_good = _fit_as_well(case, likelihood, best)
+    sets = _named(probabilities, without, best, hidden, as_good, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
     gains = _gains(case, evidence)
@@ -153,6 +155,7 @@ def _named(
     without: Mapping[Names, float],
     best: Names,
     hidden: frozenset[str],
+    as_good: frozenset[Names],
     level: float,
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with the effects that could replace it.
@@ -165,7 +168,7 @@ def _named(
     out: list[tuple[Names, float]] = []
     for name in best:
         taken = {n for names, _ in out for n in names}
-        group = (name, *(n for n in _instead(named, best, name) if n not in taken))
+        group = (name, *(n for n in _instead(named, best, name, as_good) if n not in taken))
         sure = sum(p for names, p in named.items() if set(names) & set(group))
         alone = sum(p for names, p in without.items() if set(names) & set(group))
         likelier = sure > level and alone > level * sum(without.values())
@@ -201,16 +204,47 @@ def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
     return frozenset(shown)
 
 
-def _instead(named: Mapping[Names, float], best: Names, name: str) -> Names:
+def _instead(named: Mapping[Names, float], best: Names, name: str, as_good: frozenset[Names]) -> Names:
     """Return the likeliest effects that could replace one of a set, at most two."""
+    swaps = {other: names for names in named if (other := _in_place(names, best, name)) is not None}
+    order = sorted(swaps, key=lambda other: -named[swaps[other]])
+    close = [o for o in order if swaps[o] in as_good or named[swaps[o]] > OPEN * named[best]]
+    return tuple(close)[:MOST_ALTERNATIVES]
+
+
+def _in_place(names: Names, best: Names, name: str) -> str | None:
+    """Return the effect that one set has in place of a name of another set, if that is all they differ in."""
     others = set(best) - {name}
-    swaps = {
-        next(iter(set(names) - others)): p
-        for names, p in named.items()
-        if len(names) == len(best) and others < set(names) and name not in names
-    }
-    order = sorted(swaps, key=lambda other: -swaps[other])
-    return tuple(other for other in order if swaps[other] > OPEN * named[best])[:MOST_ALTERNATIVES]
+    if len(names) != len(best) or name in names or not others < set(names):
+        return None
+    return next(iter(set(names) - others))
+
+
+def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[Names]:
+    """Return the sets with an effect of the same family in place of one, if they fit as well at their best.
+
+    Effects of one family look alike. An effect with more parameters, or with wider priors, has less evidence
+    even if it fits as well: that is what was expected of it, not what the recording says. So a wear is not
+    told from a heat that nobody measured, whose lag may be anything.
+    """
+    family = {name: catalogue()[name].family for each in case.sets for name in each.names}
+    alike = [
+        each
+        for each in case.sets
+        for name in best
+        if (other := _in_place(each.names, best, name)) is not None and family[other] == family[name] != ""
+    ]
+    if not alike:
+        return frozenset()
+    least = _best_fit(likelihood, next(each for each in case.sets if each.names == best)) + np.log(OPEN)
+    return frozenset(each.names for each in alike if _best_fit(likelihood, each) > least)
+
+
+def _best_fit(likelihood: Likelihood, each: OfSet) -> float:
+    """Return the log likelihood of a set at its likeliest parameters, with what the priors say of these."""
+    found, scale = plain(likelihood, each), scales(each, likelihood.learnt)
+    narrower = np.linalg.slogdet(found.covariance / scale[:, None] / scale[None, :])[1]
+    return found.value + each.spread - 0.5 * float(narrower)
 
 
 def _set_of(case: OfCase, probabilities: Mapping[Names, float], names: Names) -> OfSet:
