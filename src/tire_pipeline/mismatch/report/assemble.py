@@ -30,6 +30,7 @@ from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
+from tire_pipeline.mismatch.report.changed_together import changed_by_itself, on_changed_together
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
 from tire_pipeline.mismatch.report.headline.sentences import head, on_question, with_own_lag
@@ -135,6 +136,7 @@ def assembled(it: Explained) -> MismatchReport:
         on_several(effects if model.instead else []),
         on_moments(fit),
         on_expected(_unseen(it, effects)),
+        on_changed_together(data, effects),
     )
     if prepared.question is not None:
         told = on_question(prepared.question, told)
@@ -193,7 +195,8 @@ def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
 def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
     """Return effects that physics expects in this recording and that no set of names contains."""
     said = {name for effect in effects for name in (effect.name, *effect.alternatives)}
-    return sorted(it.sets.likelihood.unknown.expected - said)
+    expected = sorted(it.sets.likelihood.unknown.expected - said)
+    return [name for name in expected if changed_by_itself(it.analysis.data, effects, name)]
 
 
 def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:
