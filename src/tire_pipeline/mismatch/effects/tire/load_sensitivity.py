@@ -48,6 +48,11 @@ class LoadSensitivity(Effect):
     experiment = "record sweeps to full sliding at four loads or more"
     order = 40
 
+    def absent(self, data: Context) -> str | None:
+        """Ask for a load that varies, or for one at which the file was not fitted."""
+        why = super().absent(data)
+        return None if _at_unknown_load(data) else why
+
     def starts(self, data: Context) -> list[dict[str, float]]:
         """In proportion to the load, or by a power of it."""
         return in_both_forms(self.zeros(data), "power")
@@ -59,7 +64,7 @@ class LoadSensitivity(Effect):
 
     def expected(self, data: Context) -> bool:
         """The file does not know the recording's loads."""
-        return beyond_known(data.get("normal_load"), data.nominal.load_range)
+        return _at_unknown_load(data) or beyond_known(data.get("normal_load"), data.nominal.load_range)
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
@@ -84,3 +89,11 @@ class LoadSensitivity(Effect):
             peak, fall = c.get(f"PD{axis}1", 1.0), c.get(f"PD{axis}2", 0.0)
             out[f"PD{axis}2"] = fall + peak * p["rate"]
         return out
+
+
+def _at_unknown_load(data: Context) -> bool:
+    """Whether all of the recording has one load, and the file does not hold for it."""
+    if not data.has("normal_load") or data.varies("normal_load"):
+        return False
+    low, high = data.nominal.load_range
+    return not low <= float(np.median(data.get("normal_load"))) <= high
