@@ -8,6 +8,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Array, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import beyond_known, in_both_forms, safe_log1p
+from tire_pipeline.mismatch.model.channels import span
 
 
 class LoadSensitivity(Effect):
@@ -48,11 +49,6 @@ class LoadSensitivity(Effect):
     experiment = "record sweeps to full sliding at four loads or more"
     order = 40
 
-    def absent(self, data: Context) -> str | None:
-        """Ask for a load that varies, or for one at which the file was not fitted."""
-        why = super().absent(data)
-        return None if _at_unknown_load(data) else why
-
     def starts(self, data: Context) -> list[dict[str, float]]:
         """In proportion to the load, or by a power of it."""
         return in_both_forms(self.zeros(data), "power")
@@ -64,7 +60,7 @@ class LoadSensitivity(Effect):
 
     def expected(self, data: Context) -> bool:
         """The file does not know the recording's loads."""
-        return _at_unknown_load(data) or beyond_known(data.get("normal_load"), data.nominal.load_range)
+        return _far_outside(data) or beyond_known(data.get("normal_load"), data.nominal.load_range)
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
@@ -91,9 +87,11 @@ class LoadSensitivity(Effect):
         return out
 
 
-def _at_unknown_load(data: Context) -> bool:
-    """Whether all of the recording has one load, and the file does not hold for it."""
-    if not data.has("normal_load") or data.varies("normal_load"):
-        return False
-    low, high = data.nominal.load_range
-    return not low <= float(np.median(data.get("normal_load"))) <= high
+def _far_outside(data: Context) -> bool:
+    """Whether the recording's loads are farther from all that the file holds for than they are apart.
+
+    Then it shows how wrong the file is at these loads, and hardly how that changes with load.
+    """
+    low, high = span(data.get("normal_load"))
+    least, most = data.nominal.load_range
+    return max(least - high, low - most) > high - low

@@ -9,6 +9,7 @@ import scipy
 
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.inference.evidence.hypotheses import log_prior, plain_evidence
+from tire_pipeline.mismatch.inference.learnt.sizes import EXPECTED
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.recording.identity import SIZES_OF_TIRES, of_another_tire
 
@@ -18,7 +19,8 @@ def probability_of_another_tire(sets: Enumerated) -> float:
 
     Both are weighed by the same likelihood, on the forces whose slip varies: of another one the figures of a
     tire say nothing. Where several figures are off at once another tire is as likely beforehand as that
-    nothing is missing. Sets beside which something is unnamed do not count.
+    nothing is missing but what physics expects: that acts on another tire as well. Sets beside which
+    something is unnamed do not count.
 
     Parameters
     ----------
@@ -30,9 +32,9 @@ def probability_of_another_tire(sets: Enumerated) -> float:
         return 0.0
     columns = of_another_tire(data.tire, {name: data.get(name) for name in data.channels}, driven)
     ones = np.ones(next(iter(columns.values())).shape[1] - 1)
-    other = likelihood.evidence(sets.products.of(columns), ones, tailed=np.zeros(ones.size, bool)).value
+    other = likelihood.evidence(sets.products.of(columns), ones).value
     other -= len(driven) * np.log(len(SIZES_OF_TIRES))
     parts = [replace(each, products=each.products.of_forces(driven)) for each in sets.sets]
     own = np.array([plain_evidence(likelihood, each) for each in parts])
-    own += log_prior(sets.case, likelihood.learnt)[: own.size]
+    own += log_prior(sets.case, likelihood.learnt)[: own.size] - EXPECTED * len(likelihood.unknown.expected)
     return float(scipy.special.expit(other - scipy.special.logsumexp(own)))
