@@ -42,6 +42,12 @@ def in_turn(frame, one, other):
     return frame.assign(**{one: frame[one].mask(first), other: frame[other].mask(~first)})
 
 
+def every_other(frame, one, other):
+    """Each second row without one channel, the rest without the other: two loggers' clocks."""
+    odd = frame.index % 2 == 1
+    return frame.assign(**{one: frame[one].mask(odd), other: frame[other].mask(~odd)})
+
+
 def in_kn():
     """Load and force in kN, without a word about it."""
     return good().assign(normal_load=3.0, fy=lambda d: d["fy"] / 1000.0)
@@ -68,6 +74,7 @@ def in_two_signs():
         (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
         (good().assign(fx=np.nan), "empty_channel", "warning", ()),
         (in_turn(good(), "fy", "slip_angle"), "few_whole_rows", "error", ()),
+        (every_other(good(), "fy", "normal_load"), "never_together", "error", ()),
         (good().assign(slip_angle=lambda d: d.slip_angle * 57.3), "angle_in_degrees", "warning", ()),
         (good().assign(slip_ratio=lambda d: d.slip_angle * 100.0), "slip_in_percent", "warning", ()),
         (good().assign(normal_load=-3000.0), "negative_load", "warning", ()),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import RECORDED_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.measured import locked_parts
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
@@ -22,24 +22,22 @@ from tire_pipeline.recordings.conventions.plausible import (
     units_of_larger_loads,
 )
 from tire_pipeline.recordings.issue import Issue
-from tire_pipeline.recordings.spikes import LONGEST_SPIKE, said_of_spikes, spikes
+from tire_pipeline.recordings.spikes import said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
 from tire_pipeline.recordings.unit_jumps import unit_jumps
+from tire_pipeline.recordings.whole_rows import (
+    LEAST_POINTS,
+    LEAST_SAMPLES,
+    LONGEST_HOLE,
+    USED,
+    few_whole_rows,
+)
 from tire_pipeline.small_loads import in_another_unit_as
 
-LEAST_SAMPLES = 30
-LEAST_POINTS = 12
-"""Minimum rows of a recording in time, and of steady points: fewer cannot separate an effect from noise."""
-LEAST_WHOLE = 0.1
-"""Part of the rows that must have a number in all channels, and a load that the tire model is for."""
-LONGEST_HOLE = LONGEST_SPIKE
-"""Samples: holes of up to so many are interpolated linearly in time."""
 BREAK_OF_TIME_LINE = LONGEST_HOLE + 0.5
 """Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
 LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
-_USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
-"""Channels that a row must have to be used."""
 _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
@@ -134,28 +132,9 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
             )
         )
     elif held:
-        issues += _whole_rows(frame, held)
+        numbers = [n for n in frame.columns if n in held and pd.api.types.is_numeric_dtype(frame[n])]
+        issues += few_whole_rows({n: frame[n].to_numpy(dtype=float) for n in numbers}, "time" in held)
     return issues
-
-
-def _whole_rows(frame: pd.DataFrame, held: set[str]) -> list[Issue]:
-    """Report an error if too few rows have a number in every channel."""
-    used = [c for c in frame.columns if c in held and c in _USED and pd.api.types.is_numeric_dtype(frame[c])]
-    if not used:
-        return []
-    lost = np.zeros(len(frame), dtype=bool)
-    for name in used:
-        bad = ~np.isfinite(frame[name].to_numpy(dtype=float))
-        if "time" in held and name != "time":
-            for first, last in _runs(bad, most=None):
-                if last - first < LONGEST_HOLE and first > 0 and last < len(frame) - 1:
-                    bad[first : last + 1] = False
-        lost |= bad
-    whole = int((~lost).sum())
-    if whole >= max(LEAST_POINTS, LEAST_WHOLE * len(frame)):
-        return []
-    where = f"{whole} of {len(frame)} rows have a number in each of {', '.join(used)}"
-    return [Issue("few_whole_rows", "error", where, "drop the columns that are mostly empty")]
 
 
 def _time(frame: pd.DataFrame) -> list[Issue]:
@@ -244,7 +223,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
                     blocks[:20],
                 )
             )
-        issues += _spikes(str(column), values) if column in _USED and column != "time" else []
+        issues += _spikes(str(column), values) if column in USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     return issues + _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
 

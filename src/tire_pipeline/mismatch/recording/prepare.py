@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
@@ -34,15 +34,16 @@ from tire_pipeline.mismatch.recording.usable import (
     standing,
 )
 from tire_pipeline.pages.numbers_in_words import how_many
-from tire_pipeline.recordings.check import (
+from tire_pipeline.recordings.check import LONG_STEP
+from tire_pipeline.recordings.conventions.channel_names import FURTHER
+from tire_pipeline.recordings.stretches import stretches
+from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
     LEAST_SAMPLES,
     LEAST_WHOLE,
-    LONG_STEP,
     LONGEST_HOLE,
+    apart,
 )
-from tire_pipeline.recordings.conventions.channel_names import FURTHER
-from tire_pipeline.recordings.stretches import stretches
 
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
@@ -289,14 +290,11 @@ def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
 
 
 def _check_together(arrays: Mapping[str, Array]) -> None:
-    """Raise if hardly any row has slip, load and force: a line over holes in all of them measures nothing."""
-    inputs = [n for n in SLIP_AND_LOAD if n in arrays]
+    """Raise if hardly any row has slip, load and force."""
     for force in [n for n in TANGENTIAL_FORCES if n in arrays]:
-        whole = int(np.all([np.isfinite(arrays[n]) for n in (*inputs, force)], axis=0).sum())
-        if whole < LEAST_POINTS:
+        if said := apart(arrays, force):
             raise RecordingError(
-                f"only {whole} of {arrays[force].size} rows have numbers in all of "
-                f"{', '.join(inputs)}, {force}",
+                said,
                 where=force,
                 todo="bring the channels to common moments first, or drop those that are mostly empty",
             )

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.check import BREAK_OF_TIME_LINE, LONG_GAP, LONGEST_HOLE
+from tire_pipeline.recordings.check import BREAK_OF_TIME_LINE, LONG_GAP
+from tire_pipeline.recordings.whole_rows import LONGEST_HOLE
 
 Array = np.ndarray
 _LEAST_RATE = 50.0

@@ -12,7 +12,7 @@ from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
-from tire_pipeline.recordings.check import LEAST_POINTS
+from tire_pipeline.recordings.whole_rows import LEAST_POINTS
 
 _CONVENTIONS = {"fy": ("slip_angle", "camber", "fy"), "fx": ("slip_ratio", "fx")}
 """Channels whose signs an axis system may turn, by the force that shows it."""

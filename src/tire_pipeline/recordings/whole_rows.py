@@ -1,0 +1,81 @@
+"""Rows in which all that an explanation needs has a number."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+import numpy as np
+
+from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.recordings.issue import Issue
+from tire_pipeline.recordings.spikes import LONGEST_SPIKE
+from tire_pipeline.recordings.stretches import stretches
+
+LEAST_SAMPLES = 30
+LEAST_POINTS = 12
+"""Minimum rows of a recording in time, and of steady points: fewer cannot separate an effect from noise."""
+LEAST_WHOLE = 0.1
+"""Part of the rows that must have a number in all channels, and a load that the tire model is for."""
+LONGEST_HOLE = LONGEST_SPIKE
+"""Samples: holes of up to so many are interpolated linearly in time."""
+USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
+"""Channels that a row must have to be used."""
+
+
+def apart(columns: Mapping[str, np.ndarray], force: str) -> str:
+    """Say that hardly any row has slip, load and a force; "" if enough have.
+
+    A line over holes in all of them measures nothing.
+
+    Parameters
+    ----------
+    columns : mapping of ndarray, shape (n,)
+        Channels, NaN where there is no number.
+    force : str
+        ``fx`` or ``fy``.
+    """
+    names = [*(n for n in SLIP_AND_LOAD if n in columns), force]
+    whole = int(np.all([np.isfinite(columns[n]) for n in names], axis=0).sum())
+    if whole >= LEAST_POINTS:
+        return ""
+    return f"only {whole} of {columns[force].size} rows have numbers in all of {', '.join(names)}"
+
+
+def few_whole_rows(columns: Mapping[str, np.ndarray], timed: bool) -> list[Issue]:
+    """Report an error if too few rows have a number in every channel that is used.
+
+    Parameters
+    ----------
+    columns : mapping of ndarray, shape (n,)
+        Channels that hold numbers.
+    timed : bool
+        Whether there is a time line, so that short holes are bridged.
+    """
+    used = {n: x for n, x in columns.items() if n in USED}
+    if not used:
+        return []
+    size = next(iter(used.values())).size
+    lost = np.any([_lost(n, x, timed) for n, x in used.items()], axis=0)
+    whole = int((~lost).sum())
+    if whole < max(LEAST_POINTS, LEAST_WHOLE * size):
+        where = f"{whole} of {size} rows have a number in each of {', '.join(used)}"
+        return [Issue("few_whole_rows", "error", where, "drop the columns that are mostly empty")]
+    return [
+        Issue("never_together", "error", said, "bring the channels to common moments first")
+        for said in (apart(used, force) for force in _forces(used))
+        if said
+    ]
+
+
+def _forces(columns: Collection[str]) -> list[str]:
+    return [n for n in TANGENTIAL_FORCES if n in columns]
+
+
+def _lost(name: str, values: np.ndarray, timed: bool) -> np.ndarray:
+    """Return the rows without a number that no line bridges, bool."""
+    bad = ~np.isfinite(values)
+    if timed and name != "time":
+        for first, after in stretches(bad):
+            if after - first <= LONGEST_HOLE and first > 0 and after < bad.size:
+                bad[first:after] = False
+    return bad
