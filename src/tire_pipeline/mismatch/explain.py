@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,12 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.named import with_named
-from tire_pipeline.mismatch.inference.sets.another_tire import probability_of_another_tire
-from tire_pipeline.mismatch.inference.sets.answer import SetAnswer, answered, nothing
-from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated, enumerate_sets
+from tire_pipeline.mismatch.inference.sets.another_tire import settled
+from tire_pipeline.mismatch.inference.sets.answer import answered
+from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.model.data import Choices
-from tire_pipeline.mismatch.recording.prepare import Prepared, prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way
@@ -46,7 +45,7 @@ def weigh(
         sets = enumerate_sets(analysis, learnt)
         step = next(steps)  # evidence times learnt odds says which names are there, and how surely
         answer = answered(sets.case, learnt, level, sets.likelihood)
-        prepared, answer = _settled(prepared, sets, answer, level)
+        prepared, answer = settled(prepared, sets, answer, level)
         analysis = with_named(analysis, sets, answer, prepared.data)  # fitted to all samples
     except np.linalg.LinAlgError as error:
         raise RecordingError(
@@ -57,19 +56,6 @@ def weigh(
     finally:
         steps.close()
     return Explained(prepared, analysis, sets, answer, prepared.recording, level)
-
-
-def _settled(
-    prepared: Prepared, sets: Enumerated, answer: SetAnswer, level: float
-) -> tuple[Prepared, SetAnswer]:
-    """Drop an open question that sets of effects answer; where one stays open, nothing is explained."""
-    question = prepared.question
-    if not prepared.stopped or question is None:
-        return prepared, answer
-    by_sets = question.by_sets and answer.unnamed < level
-    if by_sets and probability_of_another_tire(sets) < level:
-        return replace(prepared, questions=prepared.questions[1:]), answer
-    return prepared, nothing(answer.case)
 
 
 def prove(weighed: Explained) -> MismatchReport:

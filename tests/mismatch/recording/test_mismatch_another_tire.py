@@ -51,6 +51,23 @@ def test_another_tire_on_the_rig_asks_for_the_file(tire, record, tmp_path):
     check_another(explain_mismatch(other, record(0), without=few), tmp_path)
 
 
+def test_a_file_whose_friction_and_stiffness_alone_are_off_is_of_another_tire():
+    """It was camber and pressure, each with 1.00: both figures of the file are off, and its camber, too."""
+    points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    tire = read_tir(shared("tir") / "TUMFTM__Open-Car-Dynamics__example_road_tire.tir")
+    assert prepare(tire, points).question is None
+    assert Explainer().weigh(tire, points).prepared.stopped == "another tire"
+
+
+def test_a_racing_tires_file_without_camber_is_not_of_a_car_tire():
+    """It was camber, a gain of the load and another change with load, each with 1.00."""
+    rows = read_recording(shared("recordings/calspan") / "cornering_part.mat", axes="SAE").iloc[::10]
+    upright = (rows["pressure"] > 75e3) & (rows["camber"].abs() < 0.01)
+    tire = fit_magic_formula(rows.loc[upright, ["slip_angle", "camber", "normal_load", "fy"]]).model
+    points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    assert Explainer().weigh(tire, points).prepared.stopped == "another tire"
+
+
 @pytest.mark.long
 def test_public_files_against_real_recordings_are_another_tire():
     """None of the 16 is of one of these tires; friction and stiffness alone may be a state of the same.

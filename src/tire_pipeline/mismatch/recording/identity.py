@@ -39,9 +39,11 @@ _ERRORS_OFF = 3.0
 """Standard errors by which it must be off."""
 
 SEVERAL = 3
+FEW = 2
 LEAST_REMOVED = 0.5
-"""So many figures are off, and with them right at least half of the mismatch is gone. Then the report asks if
-this is the file of this tire, unless a set of effects answers that."""
+"""Several figures are off, and with them right at least half of the mismatch is gone. Then the report asks if
+this is the file of this tire, unless a set of effects answers that. If a few are off, another tire is one
+effect among others: friction and stiffness alone may be a state of the same tire."""
 
 RECORDED_STATES = ("pressure", "tread_temperature")
 """Channels by which friction and stiffness of the same tire change. What they explain is no other tire's."""
@@ -53,8 +55,9 @@ SPREAD_OF_TIRES = (0.2, 0.2, 0.4, 0.4, 0.4)
 stiffness and curvature by half."""
 SIZES_OF_TIRES = (1.0, 0.25, 0.5, 2.0, 4.0)
 """Load ratings over that of the file which are tried: forces over the rating are alike at loads over it."""
-_SPREAD_OF_THRUST = 0.5
-"""The same of the camber thrust, over load and camber."""
+_SPREAD_OF_CAMBER = (0.5, 0.5, 5.0, 1.0)
+"""The same of the camber thrust, over load and camber, of its change per change of the load by its median,
+and of what camber takes off friction (per rad^2: PDY3) and off stiffness (per rad)."""
 _SPREAD_OF_SIDES = 0.01
 """The same of conicity, over load, and of ply steer, rad."""
 
@@ -91,10 +94,9 @@ class Figures:
             & (size > _ERRORS_OFF * np.nan_to_num(self.errors, nan=np.inf))
         )
 
-    @property
-    def another(self) -> bool:
-        """Whether this force says that it is another tire."""
-        return bool(self.off.sum() >= SEVERAL and self.removed > LEAST_REMOVED)
+    def another(self, least: int) -> bool:
+        """Whether this force says that it is another tire, of which so many figures are off."""
+        return bool(self.off.sum() >= least and self.removed > LEAST_REMOVED)
 
     @property
     def in_words(self) -> str:
@@ -124,8 +126,9 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     """
     outputs = [d.output for d in counted if d.varies and d.works]
     found = [figures(tire, arrays, o) for o in outputs]
-    steady = (figures(tire, arrays, o, states=()) for o in outputs)
-    if not found or not all(f.another for f in found) or not all(f.another for f in steady):
+    steady = [figures(tire, arrays, o, states=()) for o in outputs]
+    least = next((n for n in (SEVERAL, FEW) if all(f.another(n) for f in (*found, *steady))), None)
+    if not found or least is None:
         return None
     if _met_beside(tire, arrays, outputs):
         return None
@@ -140,6 +143,7 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "fit_magic_formula in Python)",
         "another tire",
         by_sets=True,
+        likely=least == SEVERAL,
     )
 
 
@@ -237,7 +241,10 @@ def _likeliest(model: _Similar, force: Array) -> tuple[Array, Array, float]:
         load, camber = model.points["normal_load"], model.points["camber"]
         moved = {**model.points, model.slip: model.points[model.slip] + _SPREAD_OF_SIDES}
         steered = plain_forces(model.tire, **moved)["fy"] - plain_forces(model.tire, **model.points)["fy"]
-        columns += [_SPREAD_OF_THRUST * load * camber, _SPREAD_OF_SIDES * load, steered]
+        thrust, friction, stiffness = load * camber, slopes[0] * camber**2, slopes[2] * np.abs(camber)
+        of_camber = (thrust, thrust * model.excess, friction, stiffness)
+        columns += [spread * x for spread, x in zip(_SPREAD_OF_CAMBER, of_camber, strict=True)]
+        columns += [_SPREAD_OF_SIDES * load, steered]
     return np.column_stack(columns), rest, float(left @ left)
 
 

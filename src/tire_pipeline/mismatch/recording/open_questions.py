@@ -20,9 +20,12 @@ class Question:
         for all the same, and only no corrected file may be written.
     by_sets : bool
         Whether sets of effects may be likelier than what is asked, and then answer it.
+    likely : bool
+        Whether it stays open unless they answer it. If not, it is asked only if it is likelier than any set.
     """
 
     why: str
     todo: str
     verdict: str = ""
     by_sets: bool = False
+    likely: bool = True

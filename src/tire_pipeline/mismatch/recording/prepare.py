@@ -78,6 +78,8 @@ class Prepared:
         order.
     left_out : mapping of ndarray of int
         Force -> rows of the recording in which the wheel stands, or whose value is unlike all around it.
+    suspected : Question, optional
+        A question that is asked only if what it asks is likelier than any explanation.
     """
 
     recording: pd.DataFrame
@@ -90,6 +92,7 @@ class Prepared:
     assumed: list[str] = field(default_factory=list)
     questions: list[Question] = field(default_factory=list)
     left_out: Mapping[str, Array] = field(default_factory=dict)
+    suspected: Question | None = None
 
     @property
     def question(self) -> Question | None:
@@ -195,11 +198,12 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
-    asked = [in_two_units(recording), unusable]
+    asked, suspected = [in_two_units(recording), unusable], None
     if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
         axes = open_axes(tire, arrays, time, findings, against)
-        asked = [another_tire(tire, arrays, driven), axes]
+        other = another_tire(tire, arrays, driven)
+        asked, suspected = ([other, axes], None) if other is None or other.likely else ([axes], other)
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = beginnings(time, rows.size, rows)
@@ -224,7 +228,9 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         data = _better_followed(with_relaxation(own_relaxation=own), data, notes)
     left_out = {n: gone for n, gone in out.items() if gone.size}
     recording, questions = without_values(recording, left_out), [q for q in asked if q]
-    return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
+    return Prepared(
+        recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out, suspected
+    )
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
