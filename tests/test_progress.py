@@ -13,7 +13,7 @@ from functools import partial
 import pytest
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline import progress_display
+from tire_pipeline.progress import display as progress_display
 from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
 from tire_pipeline.progress import silent, track, under_way
 from tire_pipeline.tasks import in_turn
@@ -168,7 +168,7 @@ def test_a_stream_that_is_closed_ends_no_loop(monkeypatch):
 
 INTERRUPTED = """
 import os, sys
-from tire_pipeline import progress_display
+from tire_pipeline.progress import display as progress_display
 from tire_pipeline.progress import track
 progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
 progress_display.TICK_SECONDS = 1e-4
@@ -194,7 +194,7 @@ def test_a_process_ends_well_with_work_left(how):
 
 IN_PROCESSES = """
 import sys, time
-from tire_pipeline import progress_display
+from tire_pipeline.progress import display as progress_display
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Labelled, in_processes
 def slow():

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.row_products import by_group, by_row
+from tire_pipeline.numerics.row_products import by_group, by_row
 
 LEAST_PROBABILITY = 0.95
 """A file is given to a category from this calibrated probability on."""

@@ -255,7 +255,7 @@ def _train_block(
 ) -> list[dict[str, Any]]:
     """Train networks of one batch size, optimiser and loss; score them after each number of epochs."""
     from tire_pipeline.classifiers.methods.network_batch import TrainingSet, train_networks
-    from tire_pipeline.small_networks import one_torch_thread
+    from tire_pipeline.numerics.small_networks import one_torch_thread
 
     with one_torch_thread():
         trained = train_networks(

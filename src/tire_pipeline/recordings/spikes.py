@@ -13,7 +13,7 @@ import pandas as pd
 import scipy
 
 from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS
-from tire_pipeline.outliers import STANDS_OUT
+from tire_pipeline.numerics.outliers import STANDS_OUT
 from tire_pipeline.pages.numbers_in_words import in_digits
 
 Array = np.ndarray

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
+from tire_pipeline.numerics.levenberg_marquardt import LeastSquares, Steps, solve
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
 
@@ -24,7 +24,7 @@ def fit_lateral(
 ) -> pd.DataFrame:
     """Return the source tires with the lateral coefficients that come closest to the curves.
 
-    Started from the source's coefficients (:mod:`tire_pipeline.levenberg_marquardt`); a step is taken for the
+    Started from the source's coefficients (:mod:`tire_pipeline.numerics.levenberg_marquardt`); a step is taken for the
     tires that it helps only, so no tire ends further away than it began.
 
     Parameters

@@ -12,7 +12,7 @@ import pytest
 from tire_pipeline.datasets import ComputedFolderDataset, TextFolderDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.files.rows_on_disk import joined
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.files import translated_folder

@@ -19,7 +19,7 @@ from tire_pipeline.fleet.manufacturer_fits.formula import (
 )
 from tire_pipeline.fleet.manufacturer_fits.habits import Habit, fit_setup, nominal_loads
 from tire_pipeline.fleet.rig.sweeps import Sweeps
-from tire_pipeline.levenberg_marquardt import LeastSquares, solve
+from tire_pipeline.numerics.levenberg_marquardt import LeastSquares, solve
 from tire_pipeline.progress import track
 
 CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache

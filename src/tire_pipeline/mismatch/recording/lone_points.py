@@ -13,7 +13,7 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.model.plain_forces import forces_at
-from tire_pipeline.outliers import unlike_neighbours
+from tire_pipeline.numerics.outliers import unlike_neighbours
 
 Array = np.ndarray
 

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.translation.curves.features import GROUPS, LOADS, encode
 
 UNIT = {"lateral": 0.01, "camber": 0.01, "longitudinal": 0.01, "aligning": 0.002}

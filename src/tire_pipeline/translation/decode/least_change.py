@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
+from tire_pipeline.numerics.levenberg_marquardt import LeastSquares, Steps, solve
 from tire_pipeline.progress import track
 from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
@@ -67,7 +67,7 @@ def decode(table: pd.DataFrame, target: DecodeTarget) -> pd.DataFrame:
 
     Notes
     -----
-    Damped Gauss-Newton steps on all tires at once (:mod:`tire_pipeline.levenberg_marquardt`), derivatives by
+    Damped Gauss-Newton steps on all tires at once (:mod:`tire_pipeline.numerics.levenberg_marquardt`), derivatives by
     differences. A curvature factor above 1 costs more and more, until next to none is left.
     """
     decoded = table.copy()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import ndtr
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 
 TIRE_BLOCKS = ("metadata", "size", "class")
 """The blocks of the mixed model that say what a tire is, whoever measures it."""

@@ -17,7 +17,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.population.classes.search import with_classes
 from tire_pipeline.translation.population.classes.search_input import per_tire

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 from tire_pipeline.translation.population.mixed_effects import Fitted
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import torch
 from torch import nn
 
-from tire_pipeline.small_networks import uncompiled
+from tire_pipeline.numerics.small_networks import uncompiled
 
 
 class Curiosity:

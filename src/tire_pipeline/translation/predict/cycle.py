@@ -15,8 +15,8 @@ import pandas as pd
 import torch
 from torch import nn
 
-from tire_pipeline.row_products import by_row
-from tire_pipeline.small_networks import one_torch_thread, uncompiled
+from tire_pipeline.numerics.row_products import by_row
+from tire_pipeline.numerics.small_networks import one_torch_thread, uncompiled
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
 

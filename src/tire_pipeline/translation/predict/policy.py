@@ -12,9 +12,9 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.row_products import by_row
-from tire_pipeline.small_networks import one_torch_thread, uncompiled
-from tire_pipeline.training_progress import learn
+from tire_pipeline.numerics.row_products import by_row
+from tire_pipeline.numerics.small_networks import one_torch_thread, uncompiled
+from tire_pipeline.progress.training import learn
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (

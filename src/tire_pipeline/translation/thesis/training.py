@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.errors import DomainError
-from tire_pipeline.training_progress import learn
+from tire_pipeline.progress.training import learn
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.rules import Rules
 
@@ -64,7 +64,7 @@ def train_agent(
     n_steps, n_envs : int
         Steps of each environment between two updates, and environments.
     """
-    from tire_pipeline.small_networks import one_torch_thread
+    from tire_pipeline.numerics.small_networks import one_torch_thread
     from tire_pipeline.translation.thesis.batch_environment import BatchEnv
 
     with one_torch_thread():
@@ -83,7 +83,7 @@ def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS
     import stable_baselines3
     import torch
 
-    from tire_pipeline.small_networks import uncompiled
+    from tire_pipeline.numerics.small_networks import uncompiled
 
     if algorithm not in ALGORITHMS:
         raise DomainError(

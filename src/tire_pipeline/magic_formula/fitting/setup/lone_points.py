@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
-from tire_pipeline.outliers import unlike_neighbours
+from tire_pipeline.numerics.outliers import unlike_neighbours
 
 Array = np.ndarray
 _ENOUGH_POINTS = 2000

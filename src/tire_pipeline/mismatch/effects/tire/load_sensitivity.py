@@ -8,7 +8,6 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Array, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import beyond_known, in_both_forms, safe_log1p
-from tire_pipeline.mismatch.model.channels import span
 
 
 class LoadSensitivity(Effect):
@@ -92,6 +91,6 @@ def _far_outside(data: Context) -> bool:
 
     Then it shows how wrong the file is at these loads, and hardly how that changes with load.
     """
-    low, high = span(data.get("normal_load"))
-    least, most = data.nominal.load_range
-    return max(least - high, low - most) > high - low
+    load = data.get("normal_load")
+    low, high = data.nominal.load_range
+    return bool(max(low - np.max(load), np.min(load) - high) > np.ptp(load))

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.special import logsumexp
 
-from tire_pipeline.row_products import by_row
+from tire_pipeline.numerics.row_products import by_row
 
 _SHARE_PENALTY = 1.0
 

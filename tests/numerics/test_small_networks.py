@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from tire_pipeline.small_networks import one_torch_thread, uncompiled
+from tire_pipeline.numerics.small_networks import one_torch_thread, uncompiled
 
 pytestmark = pytest.mark.slow
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tire_pipeline.progress import track
+from tire_pipeline.progress.track import track
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm

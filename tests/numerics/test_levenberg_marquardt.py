@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
+from tire_pipeline.numerics.levenberg_marquardt import LeastSquares, Steps, solve
 
 
 def _decay(x: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

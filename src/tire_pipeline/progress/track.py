@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Sized
 from contextlib import contextmanager
 from typing import TypeVar
 
-from tire_pipeline.progress_display import DISPLAY, Activity
+from tire_pipeline.progress.display import DISPLAY, Activity
 
 T = TypeVar("T")
 

@@ -1,0 +1,1 @@
+"""Numerical methods that several folders use, each in one place."""
