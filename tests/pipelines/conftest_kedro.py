@@ -27,6 +27,8 @@ SHORT_TRAINING = ",".join(
     )
 )
 """How good agents and networks become is no matter of a whole run's tests."""
+IN_TURN = "cluster.processes=1"
+"""Without processes beside: what many of them do is the same, and each imports everything again."""
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -97,7 +99,7 @@ def small_run(tmp_path_factory: pytest.TempPathFactory, small_fleet: Path) -> Pa
     """The folder of one whole small run: fleet, then the eight pipelines."""
     folder = tmp_path_factory.mktemp("small_run")
     shutil.copytree(small_fleet / "data", folder / "data")
-    done = kedro(folder, "--params", SHORT_TRAINING)
+    done = kedro(folder, "--params", f"{SHORT_TRAINING},{IN_TURN}")
     assert done.returncode == 0, done.stdout + done.stderr
     (folder / "stdout.txt").write_text(done.stdout)
     return folder
