@@ -59,7 +59,7 @@ def kedro(folder: Path, *arguments: str, **environment: str) -> subprocess.Compl
 
 
 def kedro_here(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """The same command in this process, which need not start and import everything again.
+    """The same command in this process alone, which need not start and import everything again.
 
     For runs that end early or do little. What is logged (not printed) is not in what it returns.
     """
@@ -67,12 +67,21 @@ def kedro_here(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str
     conf = folder / "conf"
     if not conf.exists():
         small_conf(folder)
-    command = ["run", "--env", "small", "--conf-source", str(conf), *arguments]
+    command = ["run", "--env", "small", "--conf-source", str(conf), *_in_turn(arguments)]
     with contextlib.chdir(ROOT):
         done = CliRunner().invoke(cli, command)
     if done.exception is not None and not isinstance(done.exception, SystemExit):
         raise done.exception
     return subprocess.CompletedProcess(command, done.exit_code, done.stdout, done.stderr)
+
+
+def _in_turn(arguments: tuple[str, ...]) -> list[str]:
+    """Arguments with the parameter that keeps all work in one process."""
+    given = list(arguments)
+    if "--params" not in given:
+        return [*given, "--params", IN_TURN]
+    given[given.index("--params") + 1] += f",{IN_TURN}"
+    return given
 
 
 def fleet_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
