@@ -170,3 +170,21 @@ def test_its_page_is_read_in_a_browser(folder):
         text = read_page(driver, folder / "tire_translate.html")
         assert [word for word in ("translated", "PDY1", "90%") if word not in text] == []
         assert driver.find_elements("css selector", "figure svg, figure img")
+
+
+@pytest.mark.parametrize("level", ["PDY1", "PKX1"])
+def test_a_level_that_the_file_lacks_is_named(folder, level):
+    """The change of load gave it a share of its slope, and the tire was "outside of what D has measured"."""
+    lines = Path("A/tire.tir").read_text("latin-1").splitlines(keepends=True)
+    Path("A/lacks.tir").write_text("".join(x for x in lines if not x.startswith(level)), "latin-1")
+    call = ("translate", "A/lacks.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
+    assert json.loads(run(*call).stdout)["reason"] == f"it does not state {level}: add what is missing"
+
+
+def test_what_is_unusual_in_the_file_is_said(folder):
+    """A second stiffness put a tire outside of the training data, and only the distance was told."""
+    text = Path("A/tire.tir").read_text("latin-1")
+    line = next(x for x in text.splitlines() if x.startswith("PKY1"))
+    Path("A/twice.tir").write_text(text.replace(line, f"{line}\nPKY1 = -60"), "latin-1")
+    call = ("translate", "A/twice.tir", "--model", "06_models/translator.npz", "--no-page")
+    assert "PKY1 has two values" in " ".join(run(*call).stdout.split())

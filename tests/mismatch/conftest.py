@@ -52,6 +52,12 @@ def record(tire):
     return run
 
 
+@pytest.fixture(params=[range(2), pytest.param(range(2, 8), marks=pytest.mark.ci)], ids=["two", "six more"])
+def draws(request):
+    """Seeds of the noise: what is found before any explanation has to be found in each."""
+    return request.param
+
+
 @pytest.fixture(scope="session")
 def examples():
     folder = shared("recordings/concealed_examples")

@@ -3,11 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
-from weighed import named
+from weighed import beside, named
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects.shared import first_order, own_relaxation
 from tire_pipeline.mismatch.recording.prepare import prepare
+
+LAGS = ("relaxation_length", "time_delay", "low_pass", "friction_scale", "stiffness_scale")
 
 
 def simulated(tire, *, noise=0.0, steady=False, **scaled):
@@ -24,7 +26,7 @@ def simulated(tire, *, noise=0.0, steady=False, **scaled):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("steady", [False, True])
-@pytest.mark.parametrize("noise", [0.0, 1.0])
+@pytest.mark.parametrize("noise", [0.0, pytest.param(1.0, marks=pytest.mark.ci)])
 def test_a_simulation_of_the_file_itself_agrees(tire, noise, steady):
     """It ended in a LinAlgError, or was *unexplained*: an error below the usual spoke for the unnamed."""
     report = explain_mismatch(tire, simulated(tire, noise=noise, steady=steady))
@@ -33,11 +35,12 @@ def test_a_simulation_of_the_file_itself_agrees(tire, noise, steady):
 
 
 @pytest.mark.slow
-def test_one_change_of_an_exact_simulation_has_its_name(tire):
+@beside("force_offset", "friction_scale", "stiffness_scale", "force_gain", "plysteer_conicity")
+def test_one_change_of_an_exact_simulation_has_its_name(tire, without):
     """What is left beside it is rounding, which counted as one long error."""
     recording = simulated(tire)
-    assert named(tire, recording.assign(fy=recording["fy"] + 80.0)) == ["force_offset"]
-    assert named(tire, simulated(tire, LMUY=1.08)) == ["friction_scale"]
+    assert named(tire, recording.assign(fy=recording["fy"] + 80.0), without) == ["force_offset"]
+    assert named(tire, simulated(tire, LMUY=1.08), without) == ["friction_scale"]
 
 
 def a_drive(tire, late=0.0, noise=20.0):
@@ -59,10 +62,11 @@ def relaxing(tire):
 
 
 @pytest.mark.slow
-def test_a_simulation_without_the_relaxation_that_its_file_states_agrees(relaxing):
+@beside(*LAGS)
+def test_a_simulation_without_the_relaxation_that_its_file_states_agrees(relaxing, without):
     """It was *explained: relaxation length, which the model leaves out*, with 1.00."""
     recording = a_drive(relaxing)
-    report = explain_mismatch(relaxing, recording)
+    report = explain_mismatch(relaxing, recording, without=without)
     assert report.verdict == "agrees"
     assert any("without the relaxation that the file states" in note for note in report.notes)
     assert "tire.forces lacks" not in report.summary
@@ -70,10 +74,11 @@ def test_a_simulation_without_the_relaxation_that_its_file_states_agrees(relaxin
 
 
 @pytest.mark.slow
-def test_forces_that_relax_as_their_file_states_agree_and_the_error_is_told_both_ways(relaxing):
+@beside(*LAGS)
+def test_forces_that_relax_as_their_file_states_agree_and_the_error_is_told_both_ways(relaxing, without):
     """The noise was said to be as large as the lag makes the error of tire.forces."""
     late = own_relaxation(relaxing)["slip_angle"]
-    report = explain_mismatch(relaxing, a_drive(relaxing, late))
+    report = explain_mismatch(relaxing, a_drive(relaxing, late), without=without)
     assert report.verdict == "agrees"
     fit = report.fit["fy"]
     assert fit.rms_before > 2.0 * fit.noise_floor
@@ -93,7 +98,9 @@ def test_the_lag_of_the_file_is_taken_where_it_is_the_better_one(relaxing, late)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "seed", [0, pytest.param(1, marks=pytest.mark.ci), pytest.param(2, marks=pytest.mark.long)]
+)
 def test_noise_of_small_forces_is_noise(tire, seed):
     """It was *undecided*: 3% of the largest force is more than a formula leaves, but it is white."""
     drive = a_drive(tire, noise=0.0).drop(columns="fy")

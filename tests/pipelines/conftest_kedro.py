@@ -27,6 +27,8 @@ SHORT_TRAINING = ",".join(
     )
 )
 """How good agents and networks become is no matter of a whole run's tests."""
+IN_TURN = "cluster.processes=1"
+"""Without processes beside: what many of them do is the same, and each imports everything again."""
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -57,7 +59,7 @@ def kedro(folder: Path, *arguments: str, **environment: str) -> subprocess.Compl
 
 
 def kedro_here(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """The same command in this process, which need not start and import everything again.
+    """The same command in this process alone, which need not start and import everything again.
 
     For runs that end early or do little. What is logged (not printed) is not in what it returns.
     """
@@ -65,12 +67,21 @@ def kedro_here(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str
     conf = folder / "conf"
     if not conf.exists():
         small_conf(folder)
-    command = ["run", "--env", "small", "--conf-source", str(conf), *arguments]
+    command = ["run", "--env", "small", "--conf-source", str(conf), *_in_turn(arguments)]
     with contextlib.chdir(ROOT):
         done = CliRunner().invoke(cli, command)
     if done.exception is not None and not isinstance(done.exception, SystemExit):
         raise done.exception
     return subprocess.CompletedProcess(command, done.exit_code, done.stdout, done.stderr)
+
+
+def _in_turn(arguments: tuple[str, ...]) -> list[str]:
+    """Arguments with the parameter that keeps all work in one process."""
+    given = list(arguments)
+    if "--params" not in given:
+        return [*given, "--params", IN_TURN]
+    given[given.index("--params") + 1] += f",{IN_TURN}"
+    return given
 
 
 def fleet_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -97,7 +108,7 @@ def small_run(tmp_path_factory: pytest.TempPathFactory, small_fleet: Path) -> Pa
     """The folder of one whole small run: fleet, then the eight pipelines."""
     folder = tmp_path_factory.mktemp("small_run")
     shutil.copytree(small_fleet / "data", folder / "data")
-    done = kedro(folder, "--params", SHORT_TRAINING)
+    done = kedro(folder, "--params", f"{SHORT_TRAINING},{IN_TURN}")
     assert done.returncode == 0, done.stdout + done.stderr
     (folder / "stdout.txt").write_text(done.stdout)
     return folder

@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ import click
 
 from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent, three_digits
+from tire_pipeline.errors import DomainError
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -42,9 +43,38 @@ def command(
     from tire_pipeline.tir import read_tir
 
     names = names_of([first, second])
-    models = (read_tir(path, unloaded_radius=radius) for path in (first, second))
-    outcome = compared(dict(zip(names, models, strict=True)), loads, camber)
+    read = (read_tir(path, unloaded_radius=radius) for path in (first, second))
+    models = dict(zip(names, read, strict=True))
+    odd = [f"{name}: {text}" for name, model in models.items() for text in _unusual(model)]
+    if not loads:
+        _check_loads_in_common(models, odd)
+    outcome = replace(compared(models, loads, camber), notes=odd)
     finish(outcome, f"{first.stem}_against_{second.stem}", **output)
+
+
+def _unusual(model: TireModel) -> list[str]:
+    """What is unusual in a file; of a missing radius a line of the result speaks."""
+    found = model.metadata.get("warnings", ())
+    said = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
+    return [text for text in said if "UNLOADED_RADIUS" not in text or not model.lacks_radius]
+
+
+def _check_loads_in_common(models: dict[str, TireModel], odd: list[str]) -> None:
+    """Raise where there is no load at which both files are valid: nothing there is of both tires."""
+    ranges = {
+        name: model.ranges["normal_load"][2:]
+        for name, model in models.items()
+        if "normal_load" in model.ranges
+    }
+    if len(ranges) < len(models) or max(low for low, _ in ranges.values()) <= min(
+        high for _, high in ranges.values()
+    ):
+        return
+    said = ", ".join(f"{name} from {low:,.0f} to {high:,.0f} N" for name, (low, high) in ranges.items())
+    raise DomainError(
+        f"there is no normal load at which both files are valid: {said}",
+        todo="; ".join([*odd, "correct the units of the files, or state a load by --load"]),
+    )
 
 
 @contextmanager
@@ -117,7 +147,7 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
     known = [d for d in apart if math.isfinite(d.share)]
     sizes = ", ".join(f"{d.output.capitalize()} {_percent(d.share)}" for d in known)
     lines = [
-        f"RMS difference of the forces, as a share of the largest: {sizes or 'no force is in the files'}.",
+        f"RMS difference of the forces, as a share of the largest: {sizes or 'no force is in both files'}.",
         f"A is {a} (version {first.version}), B is {b} (version {second.version}).",
     ]
     opposite = [d.output.capitalize() for d in apart if d.opposite]
@@ -129,7 +159,13 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
     for letter, which in (("A", 0), ("B", 1)):
         if lacks := [d.output.capitalize() for d in apart if d.lacking[which] and not all(d.lacking)]:
             lines.append(f"{letter} has no {' and no '.join(lacks)}.")
-    lines.append(f"{changed} coefficients differ.")
+    lines.append(f"{changed} coefficient{'s differ' if changed != 1 else ' differs'}.")
+    sides = [str(model.metadata.get("MODEL.TYRESIDE", "")) for model in (first, second)]
+    if sorted(sides) == ["LEFT", "RIGHT"]:
+        lines.append(
+            f"A is a {sides[0].lower()} tire and B a {sides[1].lower()} one: each is taken as it was "
+            "measured, and none is mirrored."
+        )
     lines += [
         f"{name} states no UNLOADED_RADIUS, so its moments and relaxation lengths cannot be computed. State "
         "it (m) with --unloaded-radius."
@@ -141,9 +177,12 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 
 def _row(difference: Difference) -> tuple[Any, ...]:
     unit = "N m" if difference.output.startswith("m") else "N"
+    rms, largest = difference.rms, difference.largest
+    if all(difference.lacking):
+        rms = largest = math.nan
     # The share is NaN where a model has no such output: that is a difference, not rounding.
-    rounding = difference.share <= _ROUNDING_SHARE
-    rms, largest = (0.0 if rounding else x for x in (difference.rms, difference.largest))
+    elif difference.share <= _ROUNDING_SHARE:
+        rms = largest = 0.0
     return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
 
 

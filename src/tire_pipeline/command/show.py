@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,6 +118,8 @@ def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
         gaps.append("There is no longitudinal force: PDX1 is 0 or missing.")
     if not model.value("PDY1"):
         gaps.append("There is no side force: PDY1 is 0 or missing.")
+    elif math.isnan(figures["cornering stiffness"]):
+        gaps.append("The side force does not follow the slip angle: the cornering stiffness (PKY1) is 0.")
     if not any(value for name, value in model.coefficients.items() if name.startswith(_MOMENT)):
         gaps.append("There is no aligning moment.")
     if not model.ranges:
@@ -169,8 +172,6 @@ def _page(
     loads: tuple[float, ...],
     camber: float,
 ) -> str:
-    import math
-
     import pandas as pd
 
     from tire_pipeline.magic_formula.plots import draw_models

@@ -82,7 +82,9 @@ def command(
     check_target(target, overwrite, file)
     who = category or _folder(file, translator.categories)
     load = nominal_load or float(state.get("nominal_load", USUAL_LOAD))
-    notes = [] if nominal_load or "nominal_load" in state else [_ASSUMED]
+    odd = model.metadata.get("warnings", ())
+    notes = [str(text) for text in odd] if isinstance(odd, (list, tuple)) else []
+    notes += [] if nominal_load or "nominal_load" in state else [_ASSUMED]
     result, translated, comments = translate_models(
         translator, {file.name: (who, model)}, nominal_load=load, farthest=farthest
     )

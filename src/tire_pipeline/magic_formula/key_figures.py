@@ -52,7 +52,9 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
     Returns
     -------
     list of KeyFigure
-        Stiffness, peak friction and the slips of the peaks, largest aligning moment, relaxation lengths.
+        Stiffness, peak friction and the slips of the peaks, largest aligning moment, relaxation lengths. Of
+        a force without a level (``PDX1``, ``PDY1``) or a stiffness all are NaN: what is left of it is an
+        offset.
 
     Examples
     --------
@@ -71,11 +73,17 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
     angle, force = np.degrees(side["slip"]), np.abs(side["fy"])
     ratio, pull = ahead["slip"], np.abs(ahead["fx"])
     torque = np.abs(side["mz"])
+    sideways = _stiffness(model, "PDY1", still.cornering_stiffness)
+    along = _stiffness(model, "PDX1", still.slip_stiffness)
+    if np.isnan(sideways):
+        force = np.zeros_like(force)
+    if np.isnan(along):
+        pull = np.zeros_like(pull)
     return [
-        KeyFigure("cornering stiffness", abs(float(still.cornering_stiffness)) * DEGREE, "N/deg"),
+        KeyFigure("cornering stiffness", sideways * DEGREE, "N/deg"),
         KeyFigure("largest lateral friction", _peak(force) / load, ""),
         KeyFigure("slip angle of the peak", _at_peak(angle, force), "deg"),
-        KeyFigure("slip stiffness", abs(float(still.slip_stiffness)), "N"),
+        KeyFigure("slip stiffness", along, "N"),
         KeyFigure("largest longitudinal friction", _peak(pull) / load, ""),
         KeyFigure("slip ratio of the peak", _at_peak(ratio, pull), ""),
         KeyFigure("largest aligning moment", _peak(torque), "N m"),
@@ -126,6 +134,11 @@ def usual_loads(models: Sequence[TireParameters]) -> list[float]:
     if len(inside) < _FEWEST_LOADS and 0.0 < low < high < np.inf:
         return [low, 0.5 * (low + high), high]
     return inside or [nominal]
+
+
+def _stiffness(model: TireParameters, level: str, value: Any) -> float:
+    """Magnitude of a stiffness; NaN if it is zero, or there is no force that it would be of."""
+    return abs(float(value)) if model.value(level) and float(value) else float("nan")
 
 
 def _peak(size: np.ndarray) -> float:

@@ -93,8 +93,11 @@ def join_files(
         count, columns = shape_of(part)
         rows.add(map(itemgetter(*REPORT_COLUMNS), rows_of(part)))
         pieces.append(Piece(count, numbers_of(columns), partial(_table_of, read)))
-    for file, reason in rows.do(f"{_SELECT_ASIDE} order by file limit {NAMED_IN_LOG}"):
+    aside = rows.do(f"{_SELECT_ASIDE} order by file limit {NAMED_IN_LOG + 1}").fetchall()
+    for file, reason in aside[:NAMED_IN_LOG]:
         _LOG.warning("%s is set aside: %s", file, reason)
+    if len(aside) > NAMED_IN_LOG:
+        _LOG.warning("more files are set aside: the ingest report has them all")
     _refuse_mostly_unread(rows, parameters)
     report = FramesOfRows(rows, "select * from rows order by file", REPORT_COLUMNS)
     return TableInPieces(tuple(pieces)), report, _summary(rows)

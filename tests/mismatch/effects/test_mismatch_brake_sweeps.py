@@ -2,7 +2,7 @@
 
 import pytest
 from brake_rig import brake_sweeps, weighted
-from weighed import named
+from weighed import beside, named
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
@@ -33,7 +33,8 @@ BY_FILE = {
         pytest.param("stiffness_scale", 1.15, marks=pytest.mark.long),
     ],
 )
-def test_a_change_by_the_files_own_factors_has_its_name_at_combined_slip(braked, name, factor):
+@beside("friction_scale", "stiffness_scale", "load_gain", "force_gain", "combined_slip", "load_sensitivity")
+def test_a_change_by_the_files_own_factors_has_its_name_at_combined_slip(braked, name, factor, without):
     """Other programs change these factors, and keep the weights of combined slip.
 
     Less friction was called a stiffness, and less stiffness a friction level with a gain of the load.
@@ -41,22 +42,24 @@ def test_a_change_by_the_files_own_factors_has_its_name_at_combined_slip(braked,
     parameter, factors = BY_FILE[name]
     file = weighted(braked)
     changed = file.replace(**dict.fromkeys(factors, factor))
-    report = explain_mismatch(file, brake_sweeps(changed, (-3.0, 0.0, 5.0)))
+    report = explain_mismatch(file, brake_sweeps(changed, (-3.0, 0.0, 5.0)), without=without)
     assert [effect.name for effect in report.effects] == [name]
     assert report.effects[0].parameters[parameter][0] == pytest.approx(factor - 1.0, abs=0.02)
 
 
 @pytest.mark.parametrize("drift", [150.0, pytest.param(-150.0, marks=pytest.mark.long)])
-def test_a_small_drift_of_brake_sweeps_is_found(braked, drift):
+@beside("sensor_drift", "force_offset", "temperature", "force_gain", "load_gain")
+def test_a_small_drift_of_brake_sweeps_is_found(braked, drift, without):
     """1% of the largest force, far above noise: it counted as one long error, and all agreed."""
     file = weighted(braked)
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
     run["fy"] += drift * run["time"] / run["time"].max()
-    assert named(file, run) == ["sensor_drift"]
+    assert named(file, run, without) == ["sensor_drift"]
 
 
 @pytest.mark.parametrize("rate", [-0.3, pytest.param(-0.2, marks=pytest.mark.long)])
-def test_friction_that_falls_with_a_power_of_the_load_has_its_name(braked, rate):
+@beside("load_sensitivity", "load_gain", "load_offset", "force_gain", "friction_scale")
+def test_friction_that_falls_with_a_power_of_the_load_has_its_name(braked, rate, without):
     """A gain and an offset of the load were named: the effect knew only what is linear in the load."""
     file = weighted(braked)
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
@@ -64,6 +67,7 @@ def test_friction_that_falls_with_a_power_of_the_load_has_its_name(braked, rate)
     by_power = {"rate": rate, "stiffness": 0.0, "lateral_stiffness": 0.0, "power": 1.0}
     forces, base = simulate(data, [("load_sensitivity", by_power)]), data.simulation.base
     assert len(run) == data.size
-    found = explain_mismatch(file, run.assign(**{o: run[o] + forces[o] - base[o] for o in forces}))
+    run = run.assign(**{o: run[o] + forces[o] - base[o] for o in forces})
+    found = explain_mismatch(file, run, without=without)
     assert [effect.name for effect in found.effects] == ["load_sensitivity"]
     assert found.effects[0].parameters["rate"][0] == pytest.approx(rate, abs=0.03)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from small_rig import rig_force, schedule
-from weighed import named_sets
+from weighed import beside, named_sets
 
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.recording.prepare import prepare
@@ -28,8 +28,9 @@ def softer(tire, record):
     return record().assign(pressure=pressure, fy=force + noise)
 
 
-def test_another_pressure_than_the_files_is_among_the_causes(stated, softer):
-    assert "inflation_pressure" in set().union(*named_sets(stated, softer))
+@beside("inflation_pressure", "friction_scale", "stiffness_scale", "load_gain", "force_gain")
+def test_another_pressure_than_the_files_is_among_the_causes(stated, softer, without):
+    assert "inflation_pressure" in set().union(*named_sets(stated, softer, without))
 
 
 def test_the_files_own_pressure_is_no_cause(stated, softer):

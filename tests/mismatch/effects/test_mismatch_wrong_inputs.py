@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from brake_rig import brake_sweeps, weighted
-from weighed import named
+from weighed import beside, named
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
@@ -36,21 +36,23 @@ def test_an_effect_takes_back_what_its_channel_reads_wrong(braked, name):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("offset", [0.004, pytest.param(-0.008, marks=pytest.mark.long)])
-def test_an_offset_of_the_slip_ratio_is_no_crosstalk(braked, offset):
+@beside("slip_ratio_offset", "crosstalk", "force_offset", "force_gain", "rolling_resistance")
+def test_an_offset_of_the_slip_ratio_is_no_crosstalk(braked, offset, without):
     """A rolling radius that is wrong by half a percent was crosstalk with a probability of 1.00."""
     file = weighted(braked)
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
-    report = explain_mismatch(file, run.assign(slip_ratio=run["slip_ratio"] + offset))
+    report = explain_mismatch(file, run.assign(slip_ratio=run["slip_ratio"] + offset), without=without)
     assert [effect.name for effect in report.effects] == ["slip_ratio_offset"]
     assert report.effects[0].parameters["offset"][0] == pytest.approx(offset, rel=0.15)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("offset", [400.0, pytest.param(-400.0, marks=pytest.mark.ci)])
-def test_an_offset_of_the_load_has_its_name(braked, offset):
+@beside("load_offset", "load_gain", "force_offset", "force_gain", "crosstalk", "load_sensitivity")
+def test_an_offset_of_the_load_has_its_name(braked, offset, without):
     file = weighted(braked)
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
-    names = named(file, run.assign(normal_load=run["normal_load"] + offset))
+    names = named(file, run.assign(normal_load=run["normal_load"] + offset), without)
     assert names == ["load_offset"]
 
 
@@ -72,12 +74,13 @@ def test_rolling_resistance_is_not_only_crosstalk(braked):
 
 
 @pytest.mark.slow
-def test_a_wheel_that_the_load_turns_is_compliance(braked):
+@beside("compliance", "plysteer_conicity", "slip_angle_offset", "crosstalk", "load_gain")
+def test_a_wheel_that_the_load_turns_is_compliance(braked, without):
     """It was a conicity and an offset of the slip angle, each with a probability above 0.98."""
     file = weighted(braked)
     run = brake_sweeps(file, (-3.0, 0.0, 5.0))
     turned = run["slip_angle"] + 0.005 * (run["normal_load"] / file.coefficients["FNOMIN"] - 1.0)
-    assert named(file, run.assign(slip_angle=turned)) == ["compliance"]
+    assert named(file, run.assign(slip_angle=turned), without) == ["compliance"]
 
 
 @pytest.mark.slow
@@ -97,9 +100,11 @@ def test_at_one_load_a_leak_of_the_load_stands_beside_an_offset(tire, record):
     assert {"force_offset", "crosstalk"} <= set(names)
 
 
-def test_a_slip_that_reads_a_tenth_is_no_unit_of_the_force(tire, record):
+@beside("friction_scale", "stiffness_scale")
+def test_a_slip_that_reads_a_tenth_is_no_unit_of_the_force(tire, record, without):
     """A tenth of the slip made Fy look 4.4 times too large, as pounds that were taken for newtons do."""
     recording = record(3)
-    report = explain_mismatch(tire, recording.assign(slip_angle=0.1 * recording["slip_angle"]))
+    misread = recording.assign(slip_angle=0.1 * recording["slip_angle"])
+    report = explain_mismatch(tire, misread, without=without)
     assert report.verdict == "unusable"
     assert not report.sets

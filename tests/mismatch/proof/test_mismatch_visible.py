@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 
 @pytest.fixture(scope="module")
 def clean(tire, record):
-    return explain_mismatch(tire, record(21))
+    return explain_mismatch(tire, record(21, rate=10.0))
 
 
 def test_every_effect_of_the_catalogue_has_a_row(clean):
@@ -100,7 +100,7 @@ def test_an_effect_that_gains_by_itself_takes_few_trials(tire, record, monkeypat
     assert len(trials) < 300
 
 
-def test_a_lag_that_is_short_beside_the_sampling_has_a_size_too(tire, record):
+def test_a_lag_that_is_short_beside_the_sampling_has_a_size_too(clean):
     """A filter of a tenth of a sample does nothing, from which no size can be told."""
-    rows = {row.name: row for row in explain_mismatch(tire, record(21, rate=10.0)).visible}
+    rows = {row.name: row for row in clean.visible}
     assert 0.0 < rows["low_pass"].ruled_out < rows["low_pass"].seen < 1.0

@@ -78,7 +78,7 @@ def _three_digits(x):
 
 
 @pytest.mark.parametrize("channel", ["fy", "slip_angle", "normal_load", "speed"])
-@pytest.mark.parametrize("rate", [20, 100, 500])
+@pytest.mark.parametrize("rate", [20, 100, pytest.param(500, marks=pytest.mark.ci)])
 def test_a_real_channel_that_stuck_is_still_found(rate, channel):
     tire, given, _ = flat_belt(rate)
     rows = slice(int(0.4 * len(given)), int(0.5 * len(given)))
@@ -126,7 +126,9 @@ _MOVES = pytest.mark.xfail(
 )
 
 
-@pytest.mark.parametrize("rate", [2, 5, pytest.param(20, marks=_MOVES), 100, 500])
+@pytest.mark.parametrize(
+    "rate", [2, 5, pytest.param(20, marks=_MOVES), 100, pytest.param(500, marks=pytest.mark.ci)]
+)
 def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
     """Cleaned like the second session, the free drive's slip was smoothed away: 0.2 N became 2 N at 5 Hz."""
     tire = car_tire(rate)

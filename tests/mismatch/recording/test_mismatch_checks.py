@@ -217,9 +217,9 @@ def test_exact_faults_get_their_name_and_no_other(tire, record, fault, name, see
     ("turned", "channel"),
     [(["fy"], "fy"), (["slip_angle", "camber"], "fy"), (["camber", "fy"], "slip_angle")],
 )
-def test_signs_that_were_turned_one_after_the_other_are_said_once(tire, turned, channel):
+def test_signs_that_were_turned_one_after_the_other_are_said_once(tire, turned, channel, draws):
     """The fewest channels are named; that slip angle and camber would look the same as Fy is said beside."""
-    for seed in range(8):
+    for seed in draws:
         leaning, recording = cambered(tire, seed)
         found = prepare(leaning, recording.assign(**{n: -recording[n] for n in turned})).findings
         assert [(each.name, each.channel) for each in found] == [("sign_convention", channel)]

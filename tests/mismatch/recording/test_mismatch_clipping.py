@@ -91,9 +91,9 @@ def test_points_that_coincide_for_another_reason_are_not_clipped(tire, seed):
         assert _limits(tire, table) == []
 
 
-def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record):
+def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record, draws):
     """A load sensitivity was taken for clipping twice: the largest forces are the ones that lack."""
-    for seed in range(8):
+    for seed in draws:
         r = record(seed)
         low = 1.0 - 0.25 * np.clip((r["normal_load"] - 3000.0) / 3000.0, 0.0, None)
         assert _limits(tire, r.assign(fy=r["fy"] * low)) == []

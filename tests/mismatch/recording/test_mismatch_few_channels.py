@@ -114,7 +114,8 @@ def test_a_relaxation_of_the_file_is_left_out_without_speed_and_that_is_said(tir
 @pytest.mark.parametrize(
     ("source", "most"),
     [
-        ("tydex", 2),
+        ("tydex", 1),
+        pytest.param("tydex", 2, marks=pytest.mark.ci),
         ("dart", 1),
         pytest.param("calspan", 1, marks=pytest.mark.long),
         pytest.param("dart", 2, marks=pytest.mark.long),

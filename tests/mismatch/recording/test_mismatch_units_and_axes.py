@@ -13,16 +13,14 @@ from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
 
-DRAWS = range(8)
-
 
 def findings(tire, recording):
     return [(f.name, f.channel) for f in prepare(tire, recording).findings]
 
 
-def in_each_draw(tire, recorded):
+def in_each_draw(tire, recorded, draws):
     """What is found before any explanation in ``recorded(seed)``: what holds has to hold in every draw."""
-    found = {tuple(findings(tire, recorded(seed))) for seed in DRAWS}
+    found = {tuple(findings(tire, recorded(seed))) for seed in draws}
     assert len(found) == 1, found
     return list(*found)
 
@@ -47,20 +45,20 @@ def brake_sweeps(tire, thrust, seed):
 
 
 @pytest.mark.parametrize("thrust", [0.0, 265.0, -400.0])
-def test_a_force_that_the_model_does_not_have_says_nothing_about_its_unit(braked, thrust):
+def test_a_force_that_the_model_does_not_have_says_nothing_about_its_unit(braked, thrust, draws):
     """A thousandth of it always left less: "Fy wrong by 1000 (kN)"."""
-    assert in_each_draw(braked, lambda seed: brake_sweeps(braked, thrust, seed)) == []
+    assert in_each_draw(braked, lambda seed: brake_sweeps(braked, thrust, seed), draws) == []
 
 
 @pytest.mark.parametrize(
     ("channel", "factor"), [("fx", 1e-3), ("fx", 1.0 / 4.4482216), ("slip_ratio", 100.0)]
 )
-def test_the_unit_of_a_force_that_the_model_has_is_still_found(braked, channel, factor):
+def test_the_unit_of_a_force_that_the_model_has_is_still_found(braked, channel, factor, draws):
     def wrong(seed):
         recording = brake_sweeps(braked, 265.0, seed)
         return recording.assign(**{channel: recording[channel] * factor})
 
-    assert in_each_draw(braked, wrong) == [("unit_error", channel)]
+    assert in_each_draw(braked, wrong, draws) == [("unit_error", channel)]
 
 
 @pytest.mark.parametrize(
@@ -89,8 +87,8 @@ def a_dozen_points(tire, seed, share=0.0, noise=0.0):
 
 
 @pytest.mark.parametrize("unit", [4.4482216, 9.80665, 1000.0])
-def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit):
-    for seed in DRAWS:
+def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit, draws):
+    for seed in draws:
         points = a_dozen_points(tire, seed, share=0.01)
         (found,) = prepare(tire, points.assign(fy=points["fy"] / unit)).findings
         assert (found.name, found.channel) == ("unit_error", "fy")
@@ -98,10 +96,10 @@ def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit):
 
 
 @pytest.mark.parametrize("turned", ["slip_angle", "fy"])
-def test_a_dozen_points_are_enough_for_a_sign_that_is_wrong_throughout(tire, turned):
+def test_a_dozen_points_are_enough_for_a_sign_that_is_wrong_throughout(tire, turned, draws):
     """Which of both is turned they do not tell: the finding names one, and the other beside it."""
-    assert in_each_draw(tire, lambda seed: a_dozen_points(tire, seed, noise=20.0)) == []
-    for seed in DRAWS:
+    assert in_each_draw(tire, lambda seed: a_dozen_points(tire, seed, noise=20.0), draws) == []
+    for seed in draws:
         points = a_dozen_points(tire, seed, noise=20.0)
         (found,) = prepare(tire, points.assign(**{turned: -points[turned]})).findings
         assert (found.name, found.channel, found.alike) == ("sign_convention", "slip_angle", (("fy",),))
@@ -110,7 +108,7 @@ def test_a_dozen_points_are_enough_for_a_sign_that_is_wrong_throughout(tire, tur
 @pytest.mark.parametrize("gain", [1.07, 1.0])
 @pytest.mark.parametrize("turned", TURNED, ids=", ".join)
 def test_axes_that_nobody_stated_are_found_and_asked_for(tire, turned, gain):
-    for seed in DRAWS[:2]:
+    for seed in range(2):
         prepared = prepare(leaning(tire), misread(cambered(tire, seed), turned, gain))
         found = [(each.name, each.channel) for each in prepared.findings]
         assert found == [("sign_convention", ", ".join(turned))]
@@ -133,7 +131,7 @@ def test_while_axes_are_open_no_physics_is_named_and_nothing_written(tire, tmp_p
     assert not list(tmp_path.iterdir())
 
 
-def test_a_slip_angle_that_is_off_by_twice_the_ply_steer_is_no_sign(tire):
+def test_a_slip_angle_that_is_off_by_twice_the_ply_steer_is_no_sign(tire, draws):
     """Turned axes would show the model's ply steer on the other side: so does an offset of twice its size."""
     steered = tire.replace(PHY1=-0.003, PVY1=0.0)
     slip = 0.15 * np.sin(2.0 * np.pi * np.arange(0.0, 60.0, 0.02) / 7.5)
@@ -145,7 +143,7 @@ def test_a_slip_angle_that_is_off_by_twice_the_ply_steer_is_no_sign(tire):
         noise = 20.0 * np.random.default_rng(seed).standard_normal(slip.size)
         return frame.assign(slip_angle=slip - 0.006, fy=fy + noise)
 
-    assert in_each_draw(steered, recorded) == []
+    assert in_each_draw(steered, recorded, draws) == []
 
 
 @pytest.mark.parametrize(("thrust", "over_load"), [(0.35, -0.1), (1.0, -0.3)])
@@ -162,9 +160,9 @@ def test_a_drift_of_the_force_is_no_sign(tire, thrust, over_load):
         assert findings(leaned, plain.assign(fy=fy + drift * t / t[-1] + noise)) == []
 
 
-def test_a_camber_of_another_size_is_no_sign(tire):
+def test_a_camber_of_another_size_is_no_sign(tire, draws):
     """The model's thrust is half of the true one: that has a size, and is physics."""
-    assert in_each_draw(leaning(tire).replace(PVY3=0.17), lambda seed: cambered(tire, seed)) == []
+    assert in_each_draw(leaning(tire).replace(PVY3=0.17), lambda seed: cambered(tire, seed), draws) == []
 
 
 def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, record, tmp_path):
@@ -204,12 +202,12 @@ def test_a_real_rig_file_in_sae_axes_is_not_explained_by_camber(gain, tmp_path):
     assert "negative throughout" in prepare(tire, wrong[level]).question.why
 
 
-def test_halves_of_a_real_table_have_the_same_axes():
+def test_halves_of_a_real_table_have_the_same_axes(draws):
     """The asymmetry of a file that was fitted to 56 points is off by as much as turned signs change."""
     table = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
     table = table[["slip_angle", "camber", "normal_load", "pressure", "fy"]]
     found = []
-    for seed in (*DRAWS, 77):
+    for seed in (*draws, 77):
         rows = np.random.default_rng(seed).permutation(len(table))
         fitted, other = (table.iloc[np.sort(r)].reset_index(drop=True) for r in (rows[:56], rows[56:]))
         found += findings(fit_magic_formula(fitted, version="5.2", starts=2).model, other)

@@ -9,8 +9,6 @@ from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.recording.prepare import prepare
 
-DRAWS = range(8)
-
 
 @pytest.fixture(scope="module")
 def on_the_floor():
@@ -33,10 +31,10 @@ def test_nothing_is_told_of_an_unusable_drive_and_nothing_written(on_the_floor, 
 
 
 @pytest.mark.parametrize(("how", "size"), RUINS)
-def test_a_drive_whose_slip_is_worth_nothing_is_unusable(on_the_floor, how, size):
+def test_a_drive_whose_slip_is_worth_nothing_is_unusable(on_the_floor, how, size, draws):
     tire, drive = on_the_floor
-    stopped = [prepare(tire, without_slip(drive, how, size, seed)).stopped for seed in DRAWS]
-    assert stopped == ["unusable"] * len(DRAWS)
+    stopped = [prepare(tire, without_slip(drive, how, size, seed)).stopped for seed in draws]
+    assert stopped == ["unusable"] * len(draws)
 
 
 @pytest.mark.parametrize(("how", "size"), RUINS)
@@ -47,9 +45,9 @@ def test_nor_does_a_model_help_that_was_fitted_to_it(how, size):
 
 
 @pytest.mark.parametrize(("how", "size"), RUINS)
-def test_a_rig_sweep_whose_slip_is_worth_nothing_is_unusable(tire, record, how, size):
-    stopped = [prepare(tire, without_slip(record(seed), how, size, seed)).stopped for seed in DRAWS]
-    assert stopped == ["unusable"] * len(DRAWS)
+def test_a_rig_sweep_whose_slip_is_worth_nothing_is_unusable(tire, record, how, size, draws):
+    stopped = [prepare(tire, without_slip(record(seed), how, size, seed)).stopped for seed in draws]
+    assert stopped == ["unusable"] * len(draws)
 
 
 def test_the_drive_as_it_is_can_be_used(on_the_floor):

@@ -93,8 +93,15 @@ NOISE = 5.0
 """N, where the forces are some hundred: how often the driver is found in four times as much: ``rates``."""
 
 
-def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
-    found = find(problem(by_speed, noise=NOISE))
+@pytest.fixture(scope="module")
+def of_speed():
+    """A problem with a force that speed drives, and what is found in it."""
+    seen = problem(by_speed, noise=NOISE)
+    return seen, find(seen)
+
+
+def test_speed_is_found_as_the_driver_and_its_square_as_the_form(of_speed):
+    _, found = of_speed
     assert found.physics.depends_on == ("speed",)
     assert "v^2" in found.physics.equations["fy"]
     assert "fx" not in found.physics.equations
@@ -149,10 +156,10 @@ def test_a_channel_that_was_held_may_differ_by_what_counts_as_held():
     assert np.mean(physics.weight(moved)) > 0.9
 
 
-def test_at_a_load_that_was_not_recorded_an_equation_adds_nothing():
+def test_at_a_load_that_was_not_recorded_an_equation_adds_nothing(of_speed):
     """It multiplies forces: what they do at that load was never compared with it."""
-    seen = problem(by_speed, noise=NOISE)
-    physics = find(seen).physics
+    seen, found = of_speed
+    physics = found.physics
     columns = dict(seen.table.columns)
     inside = physics.weight(seen.table) > 0.0
     assert inside.mean() > 0.95
@@ -172,11 +179,19 @@ def test_a_memory_is_found_where_the_force_follows_what_was():
     assert find(problem(by_memory, noise=NOISE)).physics.depends_on == ("memory of slip_angle",)
 
 
-@pytest.fixture(scope="module")
-def on_a_drum(tire, record):
+RIVALS = ("nonuniformity", "friction_scale", "force_gain", "force_offset", "sensor_drift", "surface_change")
+"""Of an equation of the way rolled."""
+
+
+@pytest.fixture(
+    scope="module", params=[RIVALS, pytest.param((), marks=pytest.mark.ci)], ids=["rivals", "catalogue"]
+)
+def on_a_drum(tire, record, request):
     """A recording whose forces swing by a quarter, and its report; by less: ``rates``."""
     recording = swinging(record(9), 0.25)
-    return recording, explain_mismatch(tire, recording)
+    return recording, explain_mismatch(
+        tire, recording, without=all_but(*request.param) if request.param else ()
+    )
 
 
 def test_an_equation_is_in_the_corrected_model_and_makes_it_better(on_a_drum):
@@ -248,7 +263,8 @@ def test_a_page_without_an_equation_has_nothing_as_good_and_no_line(on_a_drum, t
 
 def test_where_nothing_is_found_the_report_says_why_and_the_documented_lines_run(tire, record, tmp_path):
     """``agrees`` has drivers with evidence, too: odds alone do not say that nothing is there."""
-    agreeing = explain_mismatch(tire, record(9).iloc[:1500])
+    few = all_but("friction_scale", "stiffness_scale", "force_offset")
+    agreeing = explain_mismatch(tire, record(9).iloc[:1500], without=few)
     assert agreeing.verdict == "agrees"
     lines = re.search(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)[1]
     exec(compile(lines, DOCS.name, "exec"), {"report": agreeing})

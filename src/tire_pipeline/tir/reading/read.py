@@ -28,6 +28,7 @@ from tire_pipeline.tir.sidecar import read_sidecar
 from tire_pipeline.tir.text.document import Entry, Scan, TirFile, parse_tir
 
 _MAX_WARNINGS = 100
+_NAMED_SECTIONS = 5
 _HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
 _DIVISORS = ("PCX1", "PCY1", "PKY2")
 _KEYS_OF_FORCE = {"longitudinal": ("PCX1", "PDX1", "PKX1"), "lateral": ("PCY1", "PDY1", "PKY1", "PKY2")}
@@ -165,6 +166,7 @@ def interpret(file: TirFile) -> Reading:
     _read_version(scan, file, reading)
     _note_side(reading)
     _note_lines(scan, reading)
+    _note_unknown_sections(scan, reading)
     reading.warnings += odd_values(reading.coefficients, reading.metadata, reading.factors)
     return reading
 
@@ -216,6 +218,8 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
                 reading.warnings.append(_text_among_coefficients(entry, scan, file))
             if dimension:
                 reading.warnings.append(f"{key} = {text[:40]!r} is not a number (line {entry.line})")
+            if metadata.get(f"{section}.{key}", text) != text:
+                reading.warnings.append(_two_texts(f"{section}.{key}", origin[f"{section}.{key}"][0], entry))
             metadata[f"{section}.{key}"] = text
             origin[f"{section}.{key}"] = (entry, 1.0)
             continue
@@ -232,6 +236,11 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
         else:
             metadata[name] = value
         origin[name] = (entry, factor)
+
+
+def _two_texts(name: str, old: Entry, new: Entry) -> str:
+    lines = f"lines {old.line} and {new.line}"
+    return f"{name} is {old.value[:40]!r} and {new.value[:40]!r} ({lines}): the last is taken"
 
 
 def _replaces(entry: Entry, present: tuple[Entry, float], value: float, name: str, reading: Reading) -> bool:
@@ -319,6 +328,20 @@ def _note_lines(scan: Scan, reading: Reading) -> None:
             first = seen[section.name]
             reading.warnings.append(f"[{section.name[:40]}] occurs twice (lines {first} and {section.line})")
         seen[section.name] = section.line
+
+
+def _note_unknown_sections(scan: Scan, reading: Reading) -> None:
+    """Warn where coefficients stand in a section of no known name: they count as absent."""
+    unread: dict[str, list[str]] = {}
+    for entry in scan.entries:
+        known = names_coefficient(entry.section, entry.key) or entry.section in NEVER_COEFFICIENTS
+        if not known and names_force_coefficient(entry.key) and is_in_equations(entry.key):
+            unread.setdefault(entry.section, []).append(entry.key)
+    for section, keys in list(unread.items())[:_NAMED_SECTIONS]:
+        reading.warnings.append(
+            f"[{section[:40]}] is no section that is known: {len(keys)} coefficients in it are not read "
+            f"({keys[0]}, ...)"
+        )
 
 
 def _text_among_coefficients(entry: Entry, scan: Scan, file: TirFile) -> str:

@@ -14,7 +14,7 @@ from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator, judging
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.reach import OWN_LOAD
-from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
+from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, NEEDED_TO_TRANSLATE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
 
 
@@ -70,8 +70,14 @@ def translate_models(
 
 
 def at_one_load(own: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
-    """Return a tire table at one nominal load (N), with the one that each file states beside it."""
+    """Return a tire table at one nominal load (N), with the one that each file states beside it.
+
+    What a file lacks of that which a translation needs stays lacking: the change of load gives a level that
+    is not stated a share of its slope over load, which is no tire's.
+    """
     table = normalize_table(own, nominal_load)
+    needed = [name for name in NEEDED_TO_TRANSLATE if name in table]
+    table[needed] = table[needed].mask(own.reindex(columns=needed).isna().to_numpy())
     return table.assign(**{OWN_LOAD: own["FNOMIN"].to_numpy(dtype=float)})
 
 

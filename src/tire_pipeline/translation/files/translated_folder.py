@@ -213,8 +213,10 @@ def _tell_unreadable(rows: RowsOnDisk, *, any_read: bool) -> None:
     first = rows.do(f"select file, reason {aside} order by file limit {NAMED_IN_LOG}").fetchall()
     for file, reason in first:
         _LOG.warning("%s is refused: %s", file, reason)
+    (count,) = rows.do(f"select count(*) {aside}").fetchone()
+    if (more := count - len(first)) > 0:
+        _LOG.warning("%d more files cannot be read: the table of the translated files has them all", more)
     if not any_read:
-        (count,) = rows.do(f"select count(*) {aside}").fetchone()
         raise DomainError(
             f"none of {count} files could be read; the first: {first[0][1]}",
             where="translate",

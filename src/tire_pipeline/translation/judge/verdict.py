@@ -238,7 +238,7 @@ def _other_loads(rows: pd.DataFrame) -> np.ndarray:
     load = rows[OWN_LOAD].to_numpy(dtype=float)
     judged = f"side and longitudinal force are judged at {LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
     for i in np.flatnonzero(beyond_judged_loads(load) > 1.0):
-        out[i] = f"{judged}, its nominal load is {load[i] / 1e3:.3g} kN"
+        out[i] = f"{judged}, its nominal load is {float(f'{load[i] / 1e3:.3g}'):,g} kN"
     return out
 
 

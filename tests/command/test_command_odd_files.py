@@ -1,0 +1,77 @@
+"""``tire show``, ``compare`` and ``translate`` on files that lack something or contradict themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from command_line import COEFFICIENTS, run, told
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.tir import read_tir, write_tir
+
+pytestmark = pytest.mark.slow
+
+
+def figures(file):
+    found = told("show", file, "--no-page")["key_figures"]
+    return {name: each["value"] for name, each in found.items()}
+
+
+def without(*names):
+    write_tir(TireModel.from_coefficients({n: v for n, v in COEFFICIENTS.items() if n not in names}), "b.tir")
+
+
+@pytest.mark.parametrize(
+    ("lacking", "said"),
+    [
+        ("PDY1", "There is no side force: PDY1 is 0 or missing."),
+        ("PKY1", "The side force does not follow the slip angle: the cornering stiffness (PKY1) is 0."),
+    ],
+)
+def test_what_is_left_of_a_side_force_without_level_or_stiffness_is_no_friction(folder, lacking, said):
+    """An offset was the largest lateral friction, beside a stiffness of a force that is not there."""
+    without(lacking)
+    write_tir(read_tir("b.tir").replace(PVY1=0.02), "c.tir")
+    found = figures("c.tir")
+    assert found["cornering stiffness"] is None
+    assert found["largest lateral friction"] is None
+    assert found["slip stiffness"] > 0.0
+    assert said in " ".join(run("show", "c.tir", "--no-page").stdout.split())
+
+
+def test_files_of_no_load_in_common_are_not_compared_unless_one_is_stated(folder):
+    """Newtons read as kN were "in other axes", and differed by 2e26%."""
+    ranged = read_tir("a.tir").replace(FZMIN=1500.0, FZMAX=8000.0)
+    write_tir(ranged, "b.tir")
+    Path("c.tir").write_text(Path("b.tir").read_text().replace("'newton'", "'kilonewton'"))
+    error = run("compare", "b.tir", "c.tir", code=2).stderr
+    assert "no normal load at which both files are valid: b.tir from 1,500 to 8,000 N, c.tir from" in error
+    assert "FNOMIN = 4e+06 N is implausible" in error
+    assert "At 4,000 N" in run("compare", "b.tir", "c.tir", "--load", 4000, "--no-page").stdout
+
+
+def test_what_is_unusual_in_a_file_is_said_where_it_is_compared(folder):
+    text = Path("a.tir").read_text()
+    line = next(line for line in text.splitlines() if line.startswith("PKY1"))
+    Path("b.tir").write_text(text.replace(line, f"{line}\nPKY1 = -30"))
+    said = " ".join(run("compare", "a.tir", "b.tir", "--no-page").stdout.split())
+    assert "b.tir: PKY1 has two values" in said
+    assert "a.tir: " not in said
+    assert "1 coefficient differs." in said
+
+
+def test_compare_says_that_a_left_tire_stands_beside_a_right_one(folder):
+    text = Path("a.tir").read_text()
+    for side in ("LEFT", "RIGHT"):
+        Path(f"{side}.tir").write_text(text.replace("[MODEL]", f"[MODEL]\nTYRESIDE = '{side}'"))
+    said = " ".join(run("compare", "LEFT.tir", "RIGHT.tir", "--no-page").stdout.split())
+    assert "A is a left tire and B a right one: each is taken as it was measured" in said
+    assert "tire and B" not in run("compare", "a.tir", "LEFT.tir", "--no-page").stdout
+
+
+def test_compare_has_no_figure_of_a_moment_that_neither_file_has(folder):
+    write_tir(read_tir("a.tir").replace(PKY1=-21.0), "b.tir")
+    shown = run("compare", "a.tir", "b.tir", "--no-page").stdout
+    (moment,) = [line for line in shown.splitlines() if line.startswith("Mz")]
+    assert moment.split()[1:3] == ["–", "–"]
