@@ -13,8 +13,8 @@ from functools import partial
 import pytest
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.progress import display as progress_display
 from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
+from tire_pipeline.progress import display as progress_display
 from tire_pipeline.progress import silent, track, under_way
 from tire_pipeline.tasks import in_turn
 

@@ -24,6 +24,15 @@ def test_a_spike_is_found_and_nothing_else(size, length, row):
     assert np.flatnonzero(spikes(x)).tolist() == list(range(row, row + length))
 
 
+@pytest.mark.parametrize("share", [0.01, 0.05])
+def test_a_line_that_drops_out_to_one_value_is_found_in_a_fast_sweep(share):
+    """20 samples a second of a slip that sweeps 10 deg in 3 s: a zero is hardly farther off than it moves."""
+    rng = np.random.default_rng(1)
+    slip = np.radians(10.0) * np.sin(0.5 * np.arange(0.0, 60.0, 0.05)) + 1e-4 * rng.standard_normal(1200)
+    lost = (rng.random(slip.size) < share) & (np.abs(slip) > np.radians(4.0))
+    assert np.array_equal(spikes(np.where(lost, 0.0, slip)), lost)
+
+
 @pytest.mark.parametrize("row", [0, TIME.size - 1])
 def test_the_first_and_the_last_sample_have_neighbours_on_one_side(row):
     x = sweep()

@@ -19,6 +19,7 @@ from tire_pipeline.pages.numbers_in_words import in_digits
 Array = np.ndarray
 LONGEST_SPIKE = 3
 """Samples: as many as a hole may have that is put on a straight line."""
+_FEWEST_DROPOUTS = 3
 _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
@@ -29,6 +30,7 @@ def spikes(x: Array) -> Array:
     A value that is repeated exactly counts once, so that a dropout of any length is one. Where the channel
     itself moves fast, or neighbours are separate test points, nothing stands out: how far a sample usually is
     off is the geometric mean of how much the channel moves nearby, and of what one sample in ten is off.
+    Where most of those that are off by more than the latter have one value, a line drops out to it.
 
     Parameters
     ----------
@@ -51,8 +53,17 @@ def spikes(x: Array) -> Array:
     off = np.abs(values - middle)
     usual = max(float(np.quantile(off, 0.9)), float(np.median(np.abs(np.diff(values)))))
     alone = off > STANDS_OUT * np.sqrt(np.maximum(moves, usual) * usual)
+    alone |= _dropped_out(values, off > STANDS_OUT * usual)
     found[known] = alone[np.cumsum(new) - 1]
     return found
+
+
+def _dropped_out(values: Array, off: Array) -> Array:
+    """Return which samples have the one value that most of those have which are off, bool."""
+    same, count = np.unique(values[off], return_counts=True)
+    if not same.size or count.max() < max(_FEWEST_DROPOUTS, 0.5 * off.sum()):
+        return np.zeros(off.size, bool)
+    return np.asarray(off & (values == same[np.argmax(count)]))
 
 
 def said_of_spikes(name: str, x: Array, found: Array) -> str:

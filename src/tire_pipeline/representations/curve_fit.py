@@ -24,7 +24,7 @@ def fit_lateral(
 ) -> pd.DataFrame:
     """Return the source tires with the lateral coefficients that come closest to the curves.
 
-    Started from the source's coefficients (:mod:`tire_pipeline.numerics.levenberg_marquardt`); a step is taken for the
+    Started from the source's coefficients (:mod:`.numerics.levenberg_marquardt`); a step is taken for the
     tires that it helps only, so no tire ends further away than it began.
 
     Parameters

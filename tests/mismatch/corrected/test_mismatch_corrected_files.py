@@ -45,6 +45,17 @@ def test_an_effect_is_not_put_into_a_recording_that_lacks_its_channel(tire, reco
         model.predict(record(1).drop(columns=["fy", "pressure"]))
 
 
+def test_a_row_without_slip_costs_no_other_row(tire, record):
+    """A lag carried a hole on to the end of the run, and an equation beside it ended in a traceback."""
+    recording = record(0)
+    model = corrected(tire, recording, "relaxation_length", length=0.3)
+    holes = np.arange(len(recording)) % 50 == 7
+    found = model.predict(recording.assign(slip_angle=recording["slip_angle"].mask(holes)))["fy"]
+    assert np.array_equal(np.isnan(found), holes)
+    whole = model.predict(recording)["fy"]
+    assert np.max(np.abs(found - whole)) < 0.02 * np.max(np.abs(whole))
+
+
 def test_a_clipped_force_is_predicted_clipped(tire, record):
     wrong = record().assign(fy=lambda r: np.clip(r["fy"], -3500.0, 3400.0))
     findings = prepare(tire, wrong).findings

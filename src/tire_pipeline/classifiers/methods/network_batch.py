@@ -16,8 +16,8 @@ import numpy as np
 import torch
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import track
 from tire_pipeline.numerics.small_networks import uncompiled
+from tire_pipeline.progress import track
 
 HIDDEN_LAYERS = (128, 128, 64)
 """Nodes of the thesis' three hidden layers."""

@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.holes import around_holes
 from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
@@ -149,14 +150,16 @@ class CorrectedModel:
             what ``tire.forces`` gives at the rows as they are. Where several explanations are open, a force
             changes by what they agree on. ``attrs["notes"]`` says where physics without a name was outside of
             its range and faded, and where the angle of the wheel is not known: what comes back once a turn is
-            left out there.
+            left out there. Rows without a number in an input are NaN.
 
         Raises
         ------
         RecordingError
             If a channel is missing that the model or an effect needs.
         """
-        recording = numeric(recording)
+        return around_holes(numeric(recording), self._predicted)
+
+    def _predicted(self, recording: pd.DataFrame) -> pd.DataFrame:
         data = self._data(recording)
         for name, _ in self.changes:
             for channel in catalogue()[name].lacking(data):

@@ -67,7 +67,7 @@ def decode(table: pd.DataFrame, target: DecodeTarget) -> pd.DataFrame:
 
     Notes
     -----
-    Damped Gauss-Newton steps on all tires at once (:mod:`tire_pipeline.numerics.levenberg_marquardt`), derivatives by
+    Damped Gauss-Newton steps on all tires at once (:mod:`.numerics.levenberg_marquardt`), derivatives by
     differences. A curvature factor above 1 costs more and more, until next to none is left.
     """
     decoded = table.copy()
