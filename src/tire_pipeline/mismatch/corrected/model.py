@@ -34,8 +34,6 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
 
 Array = np.ndarray
-_SAME_NOISE = 3.0
-"""Noise of one sensor differs by less than this factor between recordings: drives of one car by up to 2.4."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +64,7 @@ class CorrectedModel:
         A question to settle before a file may be written from it.
     cleaned : dict of str to float
         Input channel that is cleaned of sensor noise before the effects are added -> RMS of that noise, SI.
+        In the recording that was explained alone, whose forces show that it is noise.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
     instead : tuple of (odds, changes)
@@ -298,9 +297,12 @@ class CorrectedModel:
         start = beginnings(time, n)
         for name in ASSUMED_ZERO:
             channels.setdefault(name, np.zeros(n))
-        if time is not None and self._changed:
-            for name, noise in self.cleaned.items():
-                channels[name] = _without_noise(channels[name], start, noise)
+        way = None
+        if self.rolled is not None and time is not None:
+            way = self.rolled.at(time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan))
+        if way is not None and self._changed:
+            for name in self.cleaned:
+                channels[name] = np.where(np.isnan(way), channels[name], denoise(channels[name], start))
         beside = None
         if self.stands_in:
             needed = [f"simulated_{o}" for o in self.outputs]
@@ -312,9 +314,6 @@ class CorrectedModel:
                 )
             own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
-        way = None
-        if self.rolled is not None and time is not None:
-            way = self.rolled.at(time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan))
         recorded = RecordedChannels(
             channels=channels,
             recorded={o: np.zeros(n) for o in self.outputs},
@@ -376,15 +375,6 @@ class CorrectedModel:
         if sidecar:
             write_sidecar(written, sidecar)
         return written
-
-
-def _without_noise(x: Array, start: Array, noise: float) -> Array:
-    """Return a channel without its sensor noise; as it is where far more than that would be taken off.
-
-    A sensor's noise is the same in every recording. A channel that fluctuates more really moves.
-    """
-    smooth = denoise(x, start)
-    return smooth if rms(x - smooth) < _SAME_NOISE * noise else x
 
 
 def force_limits(findings: Iterable[Finding], outputs: Iterable[str]) -> dict[str, tuple[float, float]]:
