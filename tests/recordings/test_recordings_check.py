@@ -240,3 +240,25 @@ def test_dates_are_checked_in_seconds():
     table["fy"] = -20000.0 * table["slip_angle"]
     by_date, by_number = table.assign(time=moments), table.assign(time=np.arange(n) * 0.1)
     assert [str(i) for i in check_recording(by_date)] == [str(i) for i in check_recording(by_number)]
+
+
+def sparse(**every: int) -> pd.DataFrame:
+    """A run in which some channels hold a number in each so-many-th row only."""
+    frame = good().assign(mz=1.0, speed=10.0, camber=0.0)
+    for channel, step in every.items():
+        frame.loc[np.arange(len(frame)) % step != 0, channel] = np.nan
+    return frame
+
+
+@pytest.mark.parametrize("channel", ["normal_load", "slip_angle", "fy"])
+def test_a_needed_column_that_is_mostly_empty_is_not_to_be_dropped(channel):
+    issue = check_recording(sparse(**{channel: 20}))[0]
+    assert issue.name == "few_whole_rows"
+    assert f"{channel} is the emptiest column (20 numbers) and cannot be left out" in issue.advice
+    assert "look at how it was read" in issue.advice
+    assert "drop" not in issue.advice
+
+
+def test_a_column_that_can_be_left_out_is_named():
+    issue = check_recording(sparse(camber=20))[0]
+    assert issue.advice == "drop camber, the emptiest column that can be left out (20 numbers)"
