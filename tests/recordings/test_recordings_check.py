@@ -131,7 +131,12 @@ def test_a_small_load_is_a_model_cars_unless_something_says_otherwise():
     stated.attrs["file_units"]["normal_load"] = None
     (issue,) = check_recording(stated)
     assert "no unit of the load is stated" in issue.where
-    assert "the unit is likely kN. State it, if it is kN: --unit FZ=kN" in issue.advice
+    assert "the unit is likely" not in issue.advice
+    assert "both are in N, which is to be stated then: --unit FZ=N" in issue.advice
+    assert "or both are in kN: --unit FZ=kN --unit fy=kN" in issue.advice
+    (issue,) = check_recording(stated.assign(pressure=2e5))
+    assert "as it was read: both are in kN" in issue.advice
+    assert check_recording(stated.assign(turn_slip=1.0)) == []
 
 
 def test_a_file_of_kilonewtons_without_units_is_asked_about(tmp_path):
