@@ -123,3 +123,9 @@ def test_german_degrees(tmp_path, unit):
     path = tmp_path / "run.csv"
     path.write_text(f"t [s];SA [{unit}];FZ [N];FY [N]\n" + "".join(f"{k};{k};3000;{k}\n" for k in range(20)))
     assert np.allclose(read_recording(path)["slip_angle"], np.radians(np.arange(20)))
+
+
+def test_times_of_day_with_a_decimal_comma(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("time;SA;FZ;FY\n" + "".join(f"10:59:{k:02d},25;0,{k};3000;1,{k}\n" for k in range(20)))
+    assert np.allclose(read_recording(path)["time"], np.arange(20.0))

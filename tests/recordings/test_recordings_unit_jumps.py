@@ -97,4 +97,6 @@ def test_only_the_channel_that_jumps_is_named(channel):
 def test_both_are_named_in_one_sentence_where_nothing_tells_which():
     (jump,) = unit_jumps(wide("fy", share=2.1))
     assert "fy is in N up to about row" in str(jump)
-    assert "or normal_load is in lbf, and in N from there on (the recording does not tell which)" in str(jump)
+    assert "or normal_load is in lbf before it, and in N after it (the recording does not tell which)" in str(
+        jump
+    )

@@ -149,7 +149,7 @@ def _each_once(jumps: list[UnitJump], held: Mapping[str, np.ndarray]) -> list[Un
         if of_two < _JUMP_DECIDED * of_one:
             left[at] = two
         elif not of_one < _JUMP_DECIDED * of_two:
-            other = f"{two.channel} is in {two.before}, and in {two.after} from there on"
+            other = f"{two.channel} is in {two.before} before it, and in {two.after} after it"
             left[at] = one._replace(instead=other)
     return left
 

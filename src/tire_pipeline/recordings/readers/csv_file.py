@@ -6,6 +6,7 @@ import codecs
 import csv
 import re
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,6 +29,8 @@ from tire_pipeline.recordings.readers.separators import (
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
+_MOST_CELLS = 20_000
+"""Of the first rows, in which the decimal sign is looked for."""
 _EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
 _TEMPERATURE = re.compile(r"\bdeg ([CFcf])\b")
 _MOST_HEADER_ROWS = 4
@@ -150,7 +153,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
         return None
     delimiter, decimal = max(found, key=lambda signs: (found[signs].fields, found[signs].numbers))
     rows = [_fields(s, delimiter) for s in lines[found[delimiter, decimal].line :]]
-    shown = decimal_shown(cell for row in rows for cell in row)
+    shown = decimal_shown(islice((cell for row in rows for cell in row), _MOST_CELLS))
     decimal = shown if (delimiter, shown) in found else decimal
     fields, _, line = found[delimiter, decimal]
     header, units = _header_above(lines, line, fields, delimiter)
@@ -252,8 +255,9 @@ def _other_sign(column: pd.Series, decimal: str) -> bool:
     """Whether cells of text hold the sign that is not the decimal sign, as numbers do."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
         return False
-    other = "," if decimal == "." else "[.]"
-    return bool(column.astype("string").str.fullmatch(rf"\s*[+-]?[\d.,]*{other}[\d.,]*").any())
+    text = column.astype("string").str.strip()
+    like_numbers = text.str.fullmatch(r"[+-]?[\d.,]+(?:[eEdD][+-]?\d+)?")
+    return bool((like_numbers & text.str.contains("," if decimal == "." else ".", regex=False)).any())
 
 
 def _numbers(
@@ -279,7 +283,7 @@ def _numbers(
     values = numbers(text, signs)
     lost = (np.isnan(values) & text.notna()).to_numpy(dtype=bool)
     if np.isnan(values).all():
-        seconds = _seconds(text, name, notes)
+        seconds = _seconds(text.str.replace(decimal, ".", regex=False), name, notes)
         if seconds is not None:
             return seconds
         if text.notna().any():
