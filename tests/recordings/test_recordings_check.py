@@ -131,7 +131,12 @@ def test_a_small_load_is_a_model_cars_unless_something_says_otherwise():
     stated.attrs["file_units"]["normal_load"] = None
     (issue,) = check_recording(stated)
     assert "no unit of the load is stated" in issue.where
-    assert "the unit is likely kN. State it, if it is kN: --unit FZ=kN" in issue.advice
+    assert "the unit is likely" not in issue.advice
+    assert "both are in N, which is to be stated then: --unit FZ=N" in issue.advice
+    assert "or both are in kN: --unit FZ=kN --unit fy=kN" in issue.advice
+    (issue,) = check_recording(stated.assign(pressure=2e5))
+    assert "as it was read: both are in kN" in issue.advice
+    assert check_recording(stated.assign(turn_slip=1.0)) == []
 
 
 def test_a_file_of_kilonewtons_without_units_is_asked_about(tmp_path):
@@ -240,3 +245,25 @@ def test_dates_are_checked_in_seconds():
     table["fy"] = -20000.0 * table["slip_angle"]
     by_date, by_number = table.assign(time=moments), table.assign(time=np.arange(n) * 0.1)
     assert [str(i) for i in check_recording(by_date)] == [str(i) for i in check_recording(by_number)]
+
+
+def sparse(**every: int) -> pd.DataFrame:
+    """A run in which some channels hold a number in each so-many-th row only."""
+    frame = good().assign(mz=1.0, speed=10.0, camber=0.0)
+    for channel, step in every.items():
+        frame.loc[np.arange(len(frame)) % step != 0, channel] = np.nan
+    return frame
+
+
+@pytest.mark.parametrize("channel", ["normal_load", "slip_angle", "fy"])
+def test_a_needed_column_that_is_mostly_empty_is_not_to_be_dropped(channel):
+    issue = check_recording(sparse(**{channel: 20}))[0]
+    assert issue.name == "few_whole_rows"
+    assert f"{channel} is the emptiest column (20 numbers) and cannot be left out" in issue.advice
+    assert "look at how it was read" in issue.advice
+    assert "drop" not in issue.advice
+
+
+def test_a_column_that_can_be_left_out_is_named():
+    issue = check_recording(sparse(camber=20))[0]
+    assert issue.advice == "drop camber, the emptiest column that can be left out (20 numbers)"

@@ -72,3 +72,31 @@ def test_a_slip_ratio_that_says_locked_throughout_was_not_measured():
     assert issue.advice == "taken as not measured, and as 0"
     table["slip_ratio"] = np.linspace(-1.0, 0.0, len(table))
     assert "slip_not_measured" not in {i.name for i in check_recording(table)}
+
+
+def wide(channel: str, share: float = 1.0) -> pd.DataFrame:
+    """Sweeps at many loads; one channel is in lbf from the middle on: the other seems to be, before."""
+    rng = np.random.default_rng(2)
+    angle = np.tile(0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 100)), 24)
+    loads = np.array([500.0, 1000.0, 2000.0, 4000.0, 1500.0, 3000.0])
+    load = np.repeat(np.r_[np.tile(loads, 2), np.tile(share * loads, 2)], 100) * rng.normal(1.0, 0.01, 2400)
+    fy = TIRE.forces(slip_angle=angle, normal_load=load, limits="ignore").fy + 20.0 * rng.standard_normal(
+        2400
+    )
+    table = pd.DataFrame({"time": 0.01 * np.arange(2400), "slip_angle": angle, "normal_load": load, "fy": fy})
+    table.loc[1200:, channel] /= 4.4482216
+    return table
+
+
+@pytest.mark.parametrize("channel", ["fy", "normal_load"])
+def test_only_the_channel_that_jumps_is_named(channel):
+    (jump,) = unit_jumps(wide(channel))
+    assert (jump.channel, jump.before, jump.after, jump.instead) == (channel, "N", "lbf", "")
+
+
+def test_both_are_named_in_one_sentence_where_nothing_tells_which():
+    (jump,) = unit_jumps(wide("fy", share=2.1))
+    assert "fy is in N up to about row" in str(jump)
+    assert "or normal_load is in lbf before it, and in N after it (the recording does not tell which)" in str(
+        jump
+    )

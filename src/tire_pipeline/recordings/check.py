@@ -42,6 +42,8 @@ _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
 _NAN_BLOCK = 10
+_SHARPEST_TURN_OF_CARS = 0.3
+"""Curvature, 1/m, beyond which only a model car turns: cars need a radius of 4.5 m at least."""
 _BOTH_SIGNS = 0.1
 """Of the largest load, beyond which its sign is no noise; and of the rows, for each sign."""
 
@@ -295,20 +297,33 @@ def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarr
     name = max(sizes, key=lambda n: sizes[n], default="")
     usual = not name or not large > 0.0 or sizes[name] <= FORCE_OVER_LOAD[1] * large
     if usual or not plausible("normal_load", large):
-        return _small_load(frame, large)
+        return _small_load(frame, large, name, sizes.get(name, 0.0))
     where = f"{name}, up to {in_digits(sizes[name])} N at a normal_load of up to {in_digits(large)} N"
     units = likely_load_units(frame, large, sizes[name])
     todo = f"no tire makes this force; of the load, {likely_unit_stated(frame, 'normal_load', units)}"
     return [Issue("implausible_friction", "warning", where, todo)]
 
 
-def _small_load(frame: pd.DataFrame, large: float) -> list[Issue]:
+def _small_load(frame: pd.DataFrame, large: float, force: str, largest: float) -> list[Issue]:
     """Report a load that only a model car has, where something says that this is another tire."""
-    told = ", and ".join(in_another_unit_as(frame, large))
-    where = f"normal_load, up to {in_digits(large)} N: a model car's, but {told}"
-    ask = likely_unit_stated(frame, "normal_load", units_of_larger_loads(frame, large))
-    todo = f"look at the units of load and forces; of the load, {ask}"
-    return [Issue("small_load", "warning", where, todo)] if told else []
+    found = in_another_unit_as(frame, large)
+    only_unstated = len(found) == 1 and not frame.attrs.get("file_units", {}).get("normal_load", "N")
+    turns = "turn_slip" in frame and size(_numbers(frame, "turn_slip")) > _SHARPEST_TURN_OF_CARS
+    if not found or (only_unstated and turns):
+        return []
+    where = f"normal_load, up to {in_digits(large)} N: a model car's, but {', and '.join(found)}"
+    units = units_of_larger_loads(frame, large)
+    if units and FORCE_OVER_LOAD[0] <= largest / large <= FORCE_OVER_LOAD[1]:
+        newtons = f"both are in N, which is to be stated then: {unit_stated(frame, 'normal_load', 'N')}; or "
+        stated = [unit_stated(frame, n, units[0]).partition(", in Python")[0] for n in ("normal_load", force)]
+        todo = (
+            f"{force} fits the load as it was read: {newtons if only_unstated else ''}both are in "
+            f"{' or '.join(units)}: {' '.join(stated)}"
+        )
+    else:
+        ask = likely_unit_stated(frame, "normal_load", units)
+        todo = f"look at the units of load and forces; of the load, {ask}"
+    return [Issue("small_load", "warning", where, todo)]
 
 
 def _force_and_load(frame: pd.DataFrame) -> list[Issue]:

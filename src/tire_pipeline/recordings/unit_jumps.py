@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +47,11 @@ _JUMP_ALIKE = 0.2
 """Of the logarithms of the ratios of small and of large values, at most."""
 _JUMP_DEPTH = 4
 """How often a stretch is divided."""
+_JUMP_SAME_RATIO, _JUMP_SAME_ROWS = 0.3, 0.1
+"""Two jumps are one, seen from two channels, if their ratios are inverse (of the logarithm) and their rows
+are near (share of all)."""
+_JUMP_DECIDED = 0.5
+"""The levels of channels tell which one jumps, if one reading changes them so much less than the other."""
 _JUMP_PARTS = ((0.1, 0.5), (0.5, 10.0))
 _JUMP_WHOLE = ((0.1, 10.0),)
 """Of the size of the channel (of a force over its load): small and large values, both of which jump by the
@@ -69,6 +75,8 @@ class UnitJump(NamedTuple):
         Units.
     ratio : float
         Of the values after over those before.
+    instead : str
+        The other reading, if the recording does not tell which of two channels jumps.
     """
 
     channel: str
@@ -77,11 +85,13 @@ class UnitJump(NamedTuple):
     before: str
     after: str
     ratio: float
+    instead: str = ""
 
     def __str__(self) -> str:
         when = "" if np.isnan(self.time) else f" ({in_digits(self.time, 6)} s)"
         where = f"about row {self.row}{when}"
-        return f"{self.channel} is in {self.before} up to {where}, and in {self.after} from there on"
+        said = f"{self.channel} is in {self.before} up to {where}, and in {self.after} from there on"
+        return f"{said}, or {self.instead} (the recording does not tell which)" if self.instead else said
 
 
 def unit_jumps(recording: pd.DataFrame) -> list[UnitJump]:
@@ -100,7 +110,8 @@ def unit_jumps(recording: pd.DataFrame) -> list[UnitJump]:
     -----
     A stretch of a channel is divided where the size of its values changes most. Rows of both sides with the
     same slip and load (or force) are compared. The ratio of the values has to be that of two units, of small
-    values and of large ones.
+    values and of large ones. A force that jumps makes its load seem to jump the other way: of two such jumps
+    the one is kept with which the levels of both channels stay nearer to what they were.
     """
     known = {c.name: c for c in CANONICAL}
     held = {n: _numbers(recording, n) for n in {*_DRIVEN_BY, "time"} if n in recording}
@@ -116,7 +127,46 @@ def unit_jumps(recording: pd.DataFrame) -> list[UnitJump]:
             UnitJump(name, row, float(held["time"][row]) if "time" in held else np.nan, *units)
             for row, units in jumps
         ]
-    return sorted(found, key=lambda jump: jump.row)
+    return _each_once(sorted(found, key=lambda jump: jump.row), held)
+
+
+def _each_once(jumps: list[UnitJump], held: Mapping[str, np.ndarray]) -> list[UnitJump]:
+    """Keep one of two jumps that are the same, seen from a channel and from one that drives it."""
+    left = list(jumps)
+    for one, two in combinations(jumps, 2):
+        if one not in left or two not in left or not _same(one, two, held[one.channel].size):
+            continue
+        row = (one.row + two.row) // 2
+        others = [j.row for j in jumps if j not in (one, two)]
+        first = max((r for r in others if r < row), default=0)
+        last = min((r for r in others if r > row), default=held[one.channel].size)
+        changes = [_change_of_level(held[j.channel], first, row, last) for j in (one, two)]
+        jumped = [float(np.log(j.ratio)) for j in (one, two)]
+        of_one = abs(changes[0] - jumped[0]) + abs(changes[1])
+        of_two = abs(changes[0]) + abs(changes[1] - jumped[1])
+        at = left.index(one)
+        left.remove(two)
+        if of_two < _JUMP_DECIDED * of_one:
+            left[at] = two
+        elif not of_one < _JUMP_DECIDED * of_two:
+            other = f"{two.channel} is in {two.before} before it, and in {two.after} after it"
+            left[at] = one._replace(instead=other)
+    return left
+
+
+def _same(one: UnitJump, two: UnitJump, rows: int) -> bool:
+    driven = two.channel in _DRIVEN_BY[one.channel] or one.channel in _DRIVEN_BY[two.channel]
+    near = abs(one.row - two.row) <= _JUMP_SAME_ROWS * rows
+    return driven and near and abs(np.log(one.ratio * two.ratio)) < _JUMP_SAME_RATIO
+
+
+def _change_of_level(values: np.ndarray, first: int, row: int, last: int) -> float:
+    """Return the logarithm of the sizes of a channel after a row, over those before it."""
+    before, after = (np.abs(part[np.isfinite(part)]) for part in (values[first:row], values[row:last]))
+    if not before.size or not after.size:
+        return 0.0
+    sizes = [np.maximum(np.quantile(part, [0.5, 0.75, 0.95]), 1e-300) for part in (before, after)]
+    return float(np.mean(np.log(sizes[1] / sizes[0])))
 
 
 def _ratios(channel: Channel, stated: str | None) -> _JumpRatios:

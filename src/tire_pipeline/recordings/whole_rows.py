@@ -59,12 +59,37 @@ def few_whole_rows(columns: Mapping[str, np.ndarray], timed: bool) -> list[Issue
     whole = int((~lost).sum())
     if whole < max(LEAST_POINTS, LEAST_WHOLE * size):
         where = f"{whole} of {size} rows have a number in each of {', '.join(used)}"
-        return [Issue("few_whole_rows", "error", where, "drop the columns that are mostly empty")]
+        return [Issue("few_whole_rows", "error", where, _what_to_do(used, timed))]
     return [
         Issue("never_together", "error", said, "bring the channels to common moments first")
         for said in (apart(used, force) for force in _forces(used))
         if said
     ]
+
+
+def _what_to_do(used: Mapping[str, np.ndarray], timed: bool) -> str:
+    """Say which column to drop, or that the emptiest one is needed."""
+    filled = {n: int(np.isfinite(x).sum()) for n, x in used.items()}
+    needed = _needed(used)
+    size = next(iter(used.values())).size
+    kept = int((~np.any([_lost(n, used[n], timed) for n in needed], axis=0)).sum()) if needed else size
+    others = [n for n in used if n not in needed]
+    if others and kept >= max(LEAST_POINTS, LEAST_WHOLE * size):
+        emptiest = min(others, key=lambda n: filled[n])
+        return f"drop {emptiest}, the emptiest column that can be left out ({filled[emptiest]} numbers)"
+    emptiest = min(needed or used, key=lambda n: filled[n])
+    return (
+        f"{emptiest} is the emptiest column ({filled[emptiest]} numbers) and cannot be left out: look at how "
+        "it was read, and bring channels of different rates to common moments"
+    )
+
+
+def _needed(columns: Collection[str]) -> list[str]:
+    """Return the columns without which nothing can be explained: time, load, and the only slip and force."""
+    slips = [n for n in SLIP_AND_LOAD if n in columns and n != "normal_load"]
+    forces = _forces(columns)
+    only = [*(slips if len(slips) == 1 else []), *(forces if len(forces) == 1 else [])]
+    return [n for n in columns if n in {"time", "normal_load", *only}]
 
 
 def _forces(columns: Collection[str]) -> list[str]:

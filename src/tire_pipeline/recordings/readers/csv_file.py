@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import codecs
+import csv
 import re
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -16,14 +19,24 @@ from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecord
 from tire_pipeline.recordings.conventions.channel_names import find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
+from tire_pipeline.recordings.readers.separators import (
+    Separators,
+    decimal_shown,
+    is_number,
+    numbers,
+    separators,
+)
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
+_MOST_CELLS = 20_000
+"""Of the first rows, in which the decimal sign is looked for."""
 _EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
-_NUMBER_IN_CELL = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 _TEMPERATURE = re.compile(r"\bdeg ([CFcf])\b")
 _MOST_HEADER_ROWS = 4
 _COMMENTS = ("#", "%", "//", "!")
+_SIGNS = ((",", "."), (",", ","), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", "."))
+"""Delimiters, and decimal signs of their tables."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +67,28 @@ def read_csv(path: Path) -> RawRecording:
         No header, no numbers, rows of different length, or no text at all.
     """
     layout = _find_layout(path)
+    table = _table(path, layout)
+    if table.empty:
+        raise RecordingError("no data rows", where=str(path))
+    notes: list[str] = []
+    channels = []
+    for index, name in enumerate(layout.header):
+        column = table[index]
+        if _other_sign(column, layout.decimal):  # as they stand: some may have been read as numbers
+            column = _table(path, layout, usecols=[index], dtype=str)[index]
+        values = _numbers(column, name, layout.decimal, notes, path)
+        unit = layout.units[index] if layout.units else None
+        if values is not None:
+            channels.append(RawChannel(name, unit, values))
+    if not channels:
+        raise RecordingError("no column holds numbers", where=str(path))
+    return RawRecording("CSV", channels, notes=notes, comments=layout.comments)
+
+
+def _table(path: Path, layout: _TableLayout, **more: Any) -> pd.DataFrame:
+    """Read the rows of numbers, columns by their number."""
     try:
-        table = pd.read_csv(
+        return pd.read_csv(
             path,
             sep=r"\s+" if layout.delimiter == " " else layout.delimiter,
             decimal=layout.decimal,
@@ -69,6 +102,7 @@ def read_csv(path: Path) -> RawRecording:
             skipinitialspace=True,
             quotechar='"',
             low_memory=True,
+            **more,
         )
     except (ValueError, OverflowError, UnicodeError, IndexError) as error:
         said = " ".join(str(error).removeprefix("Error tokenizing data. C error: ").split())
@@ -77,18 +111,6 @@ def read_csv(path: Path) -> RawRecording:
             where=str(path),
             todo="every row must have as many fields as the header",
         ) from error
-    if table.empty:
-        raise RecordingError("no data rows", where=str(path))
-    notes: list[str] = []
-    channels = []
-    for index, name in enumerate(layout.header):
-        values = _numbers(table[index], name, layout.decimal, notes)
-        unit = layout.units[index] if layout.units else None
-        if values is not None:
-            channels.append(RawChannel(name, unit, values))
-    if not channels:
-        raise RecordingError("no column holds numbers", where=str(path))
-    return RawRecording("CSV", channels, notes=notes, comments=layout.comments)
 
 
 def _find_layout(path: Path) -> _TableLayout:
@@ -126,14 +148,14 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     # Only what pandas takes for line ends too.
     lines = re.split(r"\r\n|\n|\r", text)
     lines = lines[: len(lines) if whole else -1][: _MOST_PREAMBLE + 20]
-    best: tuple[int, int, str, str] | None = None  # fields, -line
-    for delimiter, decimal in ((",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", ".")):
-        found = _first_numbers(lines, delimiter, decimal)
-        if found and (best is None or found[0] > best[0]):
-            best = (*found, delimiter, decimal)
-    if best is None:
+    found = {signs: first for signs in _SIGNS if (first := _first_numbers(lines, *signs))}
+    if not found:
         return None
-    fields, line, delimiter, decimal = best
+    delimiter, decimal = max(found, key=lambda signs: (found[signs].fields, found[signs].numbers))
+    rows = [_fields(s, delimiter) for s in lines[found[delimiter, decimal].line :]]
+    shown = decimal_shown(islice((cell for row in rows for cell in row), _MOST_CELLS))
+    decimal = shown if (delimiter, shown) in found else decimal
+    fields, _, line = found[delimiter, decimal]
     header, units = _header_above(lines, line, fields, delimiter)
     if header is None:
         raise RecordingError(
@@ -148,30 +170,32 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
 def _fields(line: str, delimiter: str) -> list[str]:
     if delimiter == " ":
         return line.split()
-    parts = [p.strip().strip('"').strip() for p in line.split(delimiter)]
+    parts = line.split(delimiter)
+    if '"' in line and len(parts) > 1 and len(line) < csv.field_size_limit():
+        parts = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
+    parts = [p.strip().strip('"').strip() for p in parts]
     while len(parts) > 1 and parts[-1] == "":
         parts.pop()
     return parts
 
 
-def _is_number(text: str, decimal: str) -> bool:
-    if decimal == ",":
-        if "." in text:
-            return False
-        text = text.replace(",", ".")
-    return bool(_NUMBER_IN_CELL.match(text))
+class _First(NamedTuple):
+    """The first row that is made of numbers (and gaps)."""
+
+    fields: int
+    numbers: int
+    line: int
 
 
-def _first_numbers(lines: list[str], delimiter: str, decimal: str) -> tuple[int, int] | None:
-    """Number of fields and line of the first row that is made of numbers (and gaps)."""
+def _first_numbers(lines: list[str], delimiter: str, decimal: str) -> _First | None:
     for index, line in enumerate(lines):
         if not line.strip() or line.lstrip().startswith(_COMMENTS):
             continue
         parts = _fields(line, delimiter)
-        numbers = sum(_is_number(p, decimal) for p in parts)
-        others = sum(not _is_number(p, decimal) and p.lower() not in _EMPTY for p in parts)
+        found = [is_number(p, decimal) for p in parts if p.lower() not in _EMPTY]
+        numbers, others = found.count(True), found.count(False)
         if numbers and numbers >= 2 * others:
-            return len(parts), index
+            return _First(len(parts), numbers, index)
     return None
 
 
@@ -227,26 +251,41 @@ def _are_units(row: list[str]) -> bool:
     return known > named and known >= sum(bool(cell) for cell in row) / 2
 
 
-def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> NDArray[np.float64] | None:
+def _other_sign(column: pd.Series, decimal: str) -> bool:
+    """Whether cells of text hold the sign that is not the decimal sign, as numbers do."""
+    if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
+        return False
+    text = column.astype("string").str.strip()
+    like_numbers = text.str.fullmatch(r"[+-]?[\d.,]+(?:[eEdD][+-]?\d+)?")
+    return bool((like_numbers & text.str.contains("," if decimal == "." else ".", regex=False)).any())
+
+
+def _numbers(
+    column: pd.Series, name: str, decimal: str, notes: list[str], path: Path
+) -> NDArray[np.float64] | None:
     """A column's numbers; other cells become NaN with a note, a column of text is dropped."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
         return column.to_numpy(dtype=float)
     text = column.astype("string").str.strip()
-    if decimal == ",":
-        text = text.str.replace(",", ".", regex=False)
-    values = pd.to_numeric(text, errors="coerce")
-    lost = (values.isna() & text.notna()).to_numpy(dtype=bool)
-    if values.notna().sum() == 0:
-        hit = find_channel(split_unit(name)[0])
-        if hit and hit[0].name == "time" and text.notna().any():
-            stamps = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
-            if stamps.notna().mean() > 0.9:
-                notes.append(f"{name}: dates, counted in seconds from the first")
-                return (stamps - stamps.min()).dt.total_seconds().to_numpy(dtype=float)
-            spans = pd.to_timedelta(text.where(text.str.contains(":")), errors="coerce")
-            if spans.notna().mean() > 0.9:
-                notes.append(f"{name}: hours, minutes and seconds, counted in seconds from the first")
-                return (spans - spans.min()).dt.total_seconds().to_numpy(dtype=float)
+    signs = Separators(decimal)
+    if _other_sign(column, decimal):
+        signs = separators(text.dropna().tolist(), decimal)
+        notes += _said_of(signs, name, decimal)
+    if signs.unclear and _is_channel(name):
+        raise RecordingError(
+            f"{name}: {signs.unclear!r} may have a decimal sign or a thousands separator, the column does "
+            "not tell",
+            where=str(path),
+            todo="export it without thousands separators",
+        )
+    if signs.unclear:
+        return None
+    values = numbers(text, signs)
+    lost = (np.isnan(values) & text.notna()).to_numpy(dtype=bool)
+    if np.isnan(values).all():
+        seconds = _seconds(text.str.replace(decimal, ".", regex=False), name, notes)
+        if seconds is not None:
+            return seconds
         if text.notna().any():
             notes.append(f"{name}: text, left out")
             return None
@@ -256,4 +295,29 @@ def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> ND
             f"{name}: {int(lost.sum())} cells are no numbers and became NaN, the first in data row "
             f"{first + 1}: {text.iloc[first]!r}"
         )
-    return np.asarray(values.to_numpy(dtype=float, na_value=np.nan))
+    return values
+
+
+def _said_of(signs: Separators, name: str, decimal: str) -> list[str]:
+    """Say how the numbers of a column were read, if not as those of the table."""
+    if signs.unclear:
+        return [f"{name}: left out, {signs.unclear!r} may have a decimal sign or a thousands separator"]
+    if signs.thousands:
+        return [f"{name}: {signs.thousands!r} separates thousands, {signs.decimal!r} is the decimal sign"]
+    return [f"{name}: {signs.decimal!r} is the decimal sign"] if signs.decimal != decimal else []
+
+
+def _seconds(text: pd.Series, name: str, notes: list[str]) -> NDArray[np.float64] | None:
+    """Dates or hours of a time column in seconds from the first; None if it holds none."""
+    hit = find_channel(split_unit(name)[0])
+    if not hit or hit[0].name != "time" or not text.notna().any():
+        return None
+    stamps = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
+    if stamps.notna().mean() > 0.9:
+        notes.append(f"{name}: dates, counted in seconds from the first")
+        return (stamps - stamps.min()).dt.total_seconds().to_numpy(dtype=float)
+    spans = pd.to_timedelta(text.where(text.str.contains(":")), errors="coerce")
+    if spans.notna().mean() > 0.9:
+        notes.append(f"{name}: hours, minutes and seconds, counted in seconds from the first")
+        return (spans - spans.min()).dt.total_seconds().to_numpy(dtype=float)
+    return None

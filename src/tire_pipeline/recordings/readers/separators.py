@@ -1,0 +1,171 @@
+"""Decimal signs and thousands separators of numbers in text."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+_OTHER = {".": ",", ",": "."}
+_EXPONENT = r"(?:[eEdD][+-]?\d+)?"
+_PLAIN = re.compile(rf"[+-]?\d+{_EXPONENT}")
+_FEW = 0.01
+"""Share of a column's numbers that may be unlike the others: damaged cells."""
+_NEAR_A_THOUSAND = 100.0
+"""Numbers of a channel that is grouped above a thousand come that near to it from below."""
+
+
+class _Form(NamedTuple):
+    """How a number is written: what its text shows of the decimal sign.
+
+    Parameters
+    ----------
+    decimal : str
+        The decimal sign; of an ambiguous number ("2,750") the sign that it would be.
+    grouped : bool
+        Whether the other sign separates thousands.
+    ambiguous : bool
+        Whether the sign may as well separate thousands.
+    """
+
+    decimal: str
+    grouped: bool = False
+    ambiguous: bool = False
+
+
+_INTEGER = _Form("")
+_FORMS = [
+    (re.compile(pattern.format(d=re.escape(d), t=re.escape(t), e=_EXPONENT)), form)
+    for d, t in _OTHER.items()
+    for pattern, form in (
+        (r"[+-]?[1-9]\d{{0,2}}{d}\d{{3}}", _Form(d, ambiguous=True)),
+        (r"[+-]?[1-9]\d{{0,2}}(?:{t}\d{{3}})+{d}\d*{e}", _Form(d, grouped=True)),
+        (r"[+-]?[1-9]\d{{0,2}}(?:{t}\d{{3}}){{2,}}", _Form(d, grouped=True)),
+        (r"[+-]?(?:\d+{d}\d*|{d}\d+){e}", _Form(d)),
+    )
+]
+
+
+def _form(text: str) -> _Form | None:
+    """Return how a number is written; None if a text is no number."""
+    if _PLAIN.fullmatch(text):
+        return _INTEGER
+    return next((form for pattern, form in _FORMS if pattern.fullmatch(text)), None)
+
+
+def is_number(text: str, decimal: str) -> bool | None:
+    """Whether a text is a number with a decimal sign; None if it is only where thousands are separated.
+
+    Examples
+    --------
+    >>> is_number("2,750.3", "."), is_number("2,75", "."), is_number("2,750", ".")
+    (True, False, None)
+    """
+    form = _form(text)
+    if form is None:
+        return False
+    if form.decimal in ("", decimal):
+        return True
+    return None if form.ambiguous else False
+
+
+def decimal_shown(texts: Iterable[str]) -> str:
+    """Return the decimal sign that numbers show; empty if they show none, or both.
+
+    Examples
+    --------
+    >>> decimal_shown(["2,750", "1"]), decimal_shown(["2,750", "0,5"]), decimal_shown(["2,750.3"])
+    ('', ',', '.')
+    """
+    shown = {f.decimal for f in map(_form, texts) if f and f.decimal and not f.ambiguous}
+    return shown.pop() if len(shown) == 1 else ""
+
+
+class Separators(NamedTuple):
+    """Signs of the numbers of a column.
+
+    Parameters
+    ----------
+    decimal : str
+    thousands : str
+        Empty if thousands are not separated.
+    unclear : str
+        A number that may be read in two ways, where the column does not tell; else empty.
+    """
+
+    decimal: str
+    thousands: str = ""
+    unclear: str = ""
+
+
+def separators(texts: Sequence[str], decimal: str) -> Separators:
+    """Find the decimal sign and the thousands separator of a column.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        Its cells.
+    decimal : str
+        Decimal sign of the table, for a column that does not show its own.
+
+    Returns
+    -------
+    Separators
+
+    Examples
+    --------
+    >>> separators(["2,750.3", "999.5", "2,750"], ".")
+    Separators(decimal='.', thousands=',', unclear='')
+    >>> separators(["2,750", "3,125"], ".").unclear
+    '2,750'
+    """
+    forms = [_form(text) for text in texts]
+    count = Counter(forms)
+    few = _FEW * sum(n for form, n in count.items() if form)
+    shown = {d: count[_Form(d)] + count[_Form(d, grouped=True)] for d in _OTHER}
+    own = [d for d, n in shown.items() if n > few]
+    if len(own) == 1:
+        decimal = own[0]
+    thousands = _OTHER[decimal]
+    doubtful = _Form(thousands, ambiguous=True)
+    if len(own) > 1:
+        grouped = [t for t, f in zip(texts, forms, strict=True) if f and f.grouped]
+        return Separators(decimal, unclear=grouped[0] if grouped else "")
+    if own and count[_Form(decimal, grouped=True)]:
+        return Separators(decimal, thousands)
+    if count[doubtful] <= few:
+        return Separators(decimal)
+    others = [text for text, form in zip(texts, forms, strict=True) if form and form != doubtful]
+    if own and _up_to_a_thousand(others, decimal):
+        return Separators(decimal, thousands)
+    return Separators(decimal, unclear=texts[forms.index(doubtful)])
+
+
+def _up_to_a_thousand(texts: list[str], decimal: str) -> bool:
+    """Whether numbers without a thousands separator come near to a thousand, and none is beyond it."""
+    largest = float(np.max(np.abs(numbers(pd.Series(texts), Separators(decimal))), initial=0.0))
+    return _NEAR_A_THOUSAND <= largest < 1000.0
+
+
+def numbers(texts: pd.Series, signs: Separators) -> NDArray[np.float64]:
+    """Return the numbers of a column of text, NaN where a cell is none.
+
+    Parameters
+    ----------
+    texts : Series of str
+    signs : Separators
+    """
+    if signs.thousands:
+        t, d = re.escape(signs.thousands), re.escape(signs.decimal)
+        whole = texts.str.fullmatch(rf"[+-]?[1-9]\d{{0,2}}(?:{t}\d{{3}})+(?:{d}\d*)?{_EXPONENT}")
+        texts = texts.mask(whole.fillna(False), texts.str.replace(signs.thousands, "", regex=False))
+    if signs.decimal != ".":
+        if signs.thousands:
+            texts = texts.mask(texts.str.contains(".", regex=False).fillna(False))
+        texts = texts.str.replace(signs.decimal, ".", regex=False)
+    return np.asarray(pd.to_numeric(texts, errors="coerce").to_numpy(dtype=float, na_value=np.nan))
