@@ -7,7 +7,7 @@ import pytest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import check_recording
-from tire_pipeline.recordings.unit_jumps import unit_jumps
+from tire_pipeline.recordings.unit_jumps import UnitJump, each_once, unit_jumps
 
 TIRE = TireModel.from_coefficients({"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2})
 ICE = TIRE.replace(PDY1=0.2248, PKY1=-9.5)
@@ -74,29 +74,40 @@ def test_a_slip_ratio_that_says_locked_throughout_was_not_measured():
     assert "slip_not_measured" not in {i.name for i in check_recording(table)}
 
 
-def wide(channel: str, share: float = 1.0) -> pd.DataFrame:
-    """Sweeps at many loads; one channel is in lbf from the middle on: the other seems to be, before."""
-    rng = np.random.default_rng(2)
-    angle = np.tile(0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 100)), 24)
-    loads = np.array([500.0, 1000.0, 2000.0, 4000.0, 1500.0, 3000.0])
-    load = np.repeat(np.r_[np.tile(loads, 2), np.tile(share * loads, 2)], 100) * rng.normal(1.0, 0.01, 2400)
-    fy = TIRE.forces(slip_angle=angle, normal_load=load, limits="ignore").fy + 20.0 * rng.standard_normal(
-        2400
-    )
-    table = pd.DataFrame({"time": 0.01 * np.arange(2400), "slip_angle": angle, "normal_load": load, "fy": fy})
-    table.loc[1200:, channel] /= 4.4482216
-    return table
+LOAD = 3000.0 * (1.5 + np.sin(np.arange(600.0)))
+FY_JUMPS = UnitJump("fy", 300, 3.0, "N", "lbf", 0.2248)
+LOAD_JUMPS = UnitJump("normal_load", 302, 3.02, "lbf", "N", 4.448)
 
 
-@pytest.mark.parametrize("channel", ["fy", "normal_load"])
-def test_only_the_channel_that_jumps_is_named(channel):
-    (jump,) = unit_jumps(wide(channel))
-    assert (jump.channel, jump.before, jump.after, jump.instead) == (channel, "N", "lbf", "")
+def later(fy: float, load: float) -> dict[str, np.ndarray]:
+    """Force and load, each by a factor larger from row 300 on."""
+    half = np.arange(LOAD.size) >= 300
+    return {"fy": 0.8 * LOAD * np.where(half, fy, 1.0), "normal_load": LOAD * np.where(half, load, 1.0)}
 
 
-def test_both_are_named_in_one_sentence_where_nothing_tells_which():
-    (jump,) = unit_jumps(wide("fy", share=2.1))
-    assert "fy is in N up to about row" in str(jump)
+@pytest.mark.parametrize(
+    ("fy", "load", "named"),
+    [
+        (0.2248, 1.0, "fy"),
+        (0.2248 * 1.3, 1.3, "fy"),
+        (1.0, 4.448, "normal_load"),
+        (0.8, 0.8 * 4.448, "normal_load"),
+    ],
+)
+def test_of_two_jumps_that_are_one_the_levels_tell_which(fy, load, named):
+    (jump,) = each_once([FY_JUMPS, LOAD_JUMPS], later(fy, load))
+    assert (jump.channel, jump.instead) == (named, "")
+
+
+def test_both_are_named_in_one_sentence_where_the_levels_do_not_tell():
+    (jump,) = each_once([FY_JUMPS, LOAD_JUMPS], later(0.2248 * 2.1, 2.1))
+    assert "fy is in N up to about row 300" in str(jump)
     assert "or normal_load is in lbf before it, and in N after it (the recording does not tell which)" in str(
         jump
     )
+
+
+def test_jumps_at_other_rows_or_by_other_ratios_are_two():
+    far, other = LOAD_JUMPS._replace(row=450), LOAD_JUMPS._replace(ratio=1000.0)
+    for two in (far, other):
+        assert len(each_once([FY_JUMPS, two], later(0.2248, 1.0))) == 2

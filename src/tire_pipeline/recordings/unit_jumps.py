@@ -127,11 +127,18 @@ def unit_jumps(recording: pd.DataFrame) -> list[UnitJump]:
             UnitJump(name, row, float(held["time"][row]) if "time" in held else np.nan, *units)
             for row, units in jumps
         ]
-    return _each_once(sorted(found, key=lambda jump: jump.row), held)
+    return each_once(sorted(found, key=lambda jump: jump.row), held)
 
 
-def _each_once(jumps: list[UnitJump], held: Mapping[str, np.ndarray]) -> list[UnitJump]:
-    """Keep one of two jumps that are the same, seen from a channel and from one that drives it."""
+def each_once(jumps: list[UnitJump], held: Mapping[str, np.ndarray]) -> list[UnitJump]:
+    """Keep one of two jumps that are the same, seen from a channel and from one that drives it.
+
+    Parameters
+    ----------
+    jumps : list of UnitJump
+    held : mapping of ndarray, shape (n,)
+        The channels.
+    """
     left = list(jumps)
     for one, two in combinations(jumps, 2):
         if one not in left or two not in left or not _same(one, two, held[one.channel].size):
