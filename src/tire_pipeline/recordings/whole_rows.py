@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import FORCE_OF_SLIP, INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.spikes import LONGEST_SPIKE
 from tire_pipeline.recordings.stretches import stretches
@@ -86,7 +86,7 @@ def _what_to_do(used: Mapping[str, np.ndarray], timed: bool) -> str:
 
 def _needed(columns: Collection[str]) -> list[str]:
     """Return the columns without which nothing can be explained: time, load, and the only slip and force."""
-    slips = [n for n in SLIP_AND_LOAD if n in columns and n != "normal_load"]
+    slips = [n for n in FORCE_OF_SLIP if n in columns]
     forces = _forces(columns)
     only = [*(slips if len(slips) == 1 else []), *(forces if len(forces) == 1 else [])]
     return [n for n in columns if n in {"time", "normal_load", *only}]

@@ -39,7 +39,7 @@ _ERRORS_OFF = 3.0
 """Standard errors by which it must be off."""
 
 SEVERAL = 3
-FEW = 2
+LEAST_OFF = 2
 LEAST_REMOVED = 0.5
 """Several figures are off, and with them right at least half of the mismatch is gone. Then the report asks if
 this is the file of this tire, unless a set of effects answers that. If a few are off, another tire is one
@@ -127,7 +127,7 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     outputs = [d.output for d in counted if d.varies and d.works]
     found = [figures(tire, arrays, o) for o in outputs]
     steady = [figures(tire, arrays, o, states=()) for o in outputs]
-    least = next((n for n in (SEVERAL, FEW) if all(f.another(n) for f in (*found, *steady))), None)
+    least = next((n for n in (SEVERAL, LEAST_OFF) if all(f.another(n) for f in (*found, *steady))), None)
     if not found or least is None:
         return None
     if _met_beside(tire, arrays, outputs):

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 _OTHER = {".": ",", ",": "."}
 _EXPONENT = r"(?:[eEdD][+-]?\d+)?"
-_PLAIN = re.compile(rf"[+-]?\d+{_EXPONENT}")
-_FEW = 0.01
+_UNGROUPED = re.compile(rf"[+-]?\d+{_EXPONENT}")
+_FEW_CELLS = 0.01
 """Share of a column's numbers that may be unlike the others: damaged cells."""
 _NEAR_A_THOUSAND = 100.0
 """Numbers of a channel that is grouped above a thousand come that near to it from below."""
@@ -39,7 +39,7 @@ class _Form(NamedTuple):
 
 
 _INTEGER = _Form("")
-_FORMS = [
+_CELL_FORMS = [
     (re.compile(pattern.format(d=re.escape(d), t=re.escape(t), e=_EXPONENT)), form)
     for d, t in _OTHER.items()
     for pattern, form in (
@@ -53,9 +53,9 @@ _FORMS = [
 
 def _form(text: str) -> _Form | None:
     """Return how a number is written; None if a text is no number."""
-    if _PLAIN.fullmatch(text):
+    if _UNGROUPED.fullmatch(text):
         return _INTEGER
-    return next((form for pattern, form in _FORMS if pattern.fullmatch(text)), None)
+    return next((form for pattern, form in _CELL_FORMS if pattern.fullmatch(text)), None)
 
 
 def is_number(text: str, decimal: str) -> bool | None:
@@ -126,24 +126,24 @@ def separators(texts: Sequence[str], decimal: str) -> Separators:
     """
     forms = [_form(text) for text in texts]
     count = Counter(forms)
-    few = _FEW * sum(n for form, n in count.items() if form)
+    few = _FEW_CELLS * sum(n for form, n in count.items() if form)
     shown = {d: count[_Form(d)] + count[_Form(d, grouped=True)] for d in _OTHER}
     own = [d for d, n in shown.items() if n > few]
     if len(own) == 1:
         decimal = own[0]
     thousands = _OTHER[decimal]
-    doubtful = _Form(thousands, ambiguous=True)
+    either = _Form(thousands, ambiguous=True)
     if len(own) > 1:
         grouped = [t for t, f in zip(texts, forms, strict=True) if f and f.grouped]
         return Separators(decimal, unclear=grouped[0] if grouped else "")
     if own and count[_Form(decimal, grouped=True)]:
         return Separators(decimal, thousands)
-    if count[doubtful] <= few:
+    if count[either] <= few:
         return Separators(decimal)
-    others = [text for text, form in zip(texts, forms, strict=True) if form and form != doubtful]
+    others = [text for text, form in zip(texts, forms, strict=True) if form and form != either]
     if own and _up_to_a_thousand(others, decimal):
         return Separators(decimal, thousands)
-    return Separators(decimal, unclear=texts[forms.index(doubtful)])
+    return Separators(decimal, unclear=texts[forms.index(either)])
 
 
 def _up_to_a_thousand(texts: list[str], decimal: str) -> bool:
