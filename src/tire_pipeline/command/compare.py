@@ -54,8 +54,9 @@ def command(
 
 def _unusual(model: TireModel) -> list[str]:
     """What is unusual in a file; of a missing radius a line of the result speaks."""
-    found = model.metadata.get("warnings", ())
-    said = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
+    from tire_pipeline.tir.reading.read import file_warnings
+
+    said = file_warnings(model)
     return [text for text in said if "UNLOADED_RADIUS" not in text or not model.lacks_radius]
 
 

@@ -53,6 +53,7 @@ def command(file: Path, loads: tuple[float, ...], camber: float, radius: float |
 
 def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> CommandOutcome:
     from tire_pipeline.magic_formula.key_figures import key_figures
+    from tire_pipeline.tir.reading.read import file_warnings
 
     figures = key_figures(model)
     ranges = {name: (low, high) for name, (*_, low, high) in model.ranges.items()}
@@ -67,8 +68,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
-    found = model.metadata.get("warnings", ())
-    odd = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
+    odd = file_warnings(model)
     key = Grid(
         ("quantity", "value", "unit"),
         [

@@ -72,6 +72,7 @@ def command(
     from tire_pipeline.command.stored import translator_state
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
+    from tire_pipeline.tir.reading.read import file_warnings
     from tire_pipeline.translation.base import judging, translator_from_state
     from tire_pipeline.translation.files.of_models import translate_models
 
@@ -82,8 +83,7 @@ def command(
     check_target(target, overwrite, file)
     who = category or _folder(file, translator.categories)
     load = nominal_load or float(state.get("nominal_load", USUAL_LOAD))
-    odd = model.metadata.get("warnings", ())
-    notes = [str(text) for text in odd] if isinstance(odd, (list, tuple)) else []
+    notes = file_warnings(model)
     notes += [] if nominal_load or "nominal_load" in state else [_ASSUMED]
     result, translated, comments = translate_models(
         translator, {file.name: (who, model)}, nominal_load=load, farthest=farthest

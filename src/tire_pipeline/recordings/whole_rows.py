@@ -41,6 +41,20 @@ def apart(columns: Mapping[str, np.ndarray], force: str) -> str:
     return f"only {whole} of {columns[force].size} rows have numbers in all of {', '.join(names)}"
 
 
+def short_holes(missing: np.ndarray) -> np.ndarray:
+    """Return which samples lie in a hole that a straight line bridges, bool, shape (n,).
+
+    Parameters
+    ----------
+    missing : ndarray of bool, shape (n,)
+    """
+    found = np.zeros(missing.size, bool)
+    for first, after in stretches(missing):
+        if after - first <= LONGEST_HOLE and first > 0 and after < missing.size:
+            found[first:after] = True
+    return found
+
+
 def few_whole_rows(columns: Mapping[str, np.ndarray], timed: bool) -> list[Issue]:
     """Report an error if too few rows have a number in every channel that is used.
 
@@ -99,8 +113,4 @@ def _forces(columns: Collection[str]) -> list[str]:
 def _lost(name: str, values: np.ndarray, timed: bool) -> np.ndarray:
     """Return the rows without a number that no line bridges, bool."""
     bad = ~np.isfinite(values)
-    if timed and name != "time":
-        for first, after in stretches(bad):
-            if after - first <= LONGEST_HOLE and first > 0 and after < bad.size:
-                bad[first:after] = False
-    return bad
+    return bad & ~short_holes(bad) if timed and name != "time" else bad

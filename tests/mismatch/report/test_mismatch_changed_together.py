@@ -7,11 +7,21 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tire_pipeline.mismatch.report.changed_together import changed_by_itself, on_changed_together
+from tire_pipeline.mismatch.report.changed_together import (
+    changed_by_itself,
+    changed_together,
+    on_changed_together,
+)
 
 CAMBER = np.repeat([0.0, 0.035], 400)
 NOISE = np.random.default_rng(0).normal(size=800)
-TURNED = [SimpleNamespace(name="camber", alternatives=(), title="camber")]
+
+
+def named(name, title, *alternatives):
+    return SimpleNamespace(name=name, title=title, names=(name, *alternatives))
+
+
+TURNED = [named("camber", "camber")]
 
 
 class Channels:
@@ -29,9 +39,9 @@ class Channels:
 
 def test_a_pressure_that_changed_with_the_camber_is_said():
     data = Channels(camber=CAMBER, pressure=82_700.0 - 4e5 * CAMBER + 300.0 * NOISE)
-    told = on_changed_together(data, TURNED)
+    told = on_changed_together(changed_together(data, TURNED))
     assert told.startswith("Pressure changed in the same rows as camber: that camber is the cause rests on")
-    assert not changed_by_itself(data, TURNED, "inflation_pressure")
+    assert not changed_by_itself(changed_together(data, TURNED), "inflation_pressure")
 
 
 @pytest.mark.parametrize(
@@ -41,13 +51,13 @@ def test_a_pressure_that_changed_with_the_camber_is_said():
 )
 def test_a_pressure_that_changed_by_itself_is_not(pressure):
     data = Channels(camber=CAMBER, pressure=pressure)
-    assert on_changed_together(data, TURNED) == ""
-    assert changed_by_itself(data, TURNED, "inflation_pressure")
+    assert on_changed_together(changed_together(data, TURNED)) == ""
+    assert changed_by_itself(changed_together(data, TURNED), "inflation_pressure")
 
 
 def test_a_pressure_that_is_named_or_open_itself_is_not():
     data = Channels(camber=CAMBER, pressure=82_700.0 - 4e5 * CAMBER)
-    named = [*TURNED, SimpleNamespace(name="inflation_pressure", alternatives=(), title="inflation pressure")]
-    assert on_changed_together(data, named) == ""
-    either = [SimpleNamespace(name="camber", alternatives=("inflation_pressure",), title="camber")]
-    assert on_changed_together(data, either) == ""
+    both = [*TURNED, named("inflation_pressure", "inflation pressure")]
+    assert on_changed_together(changed_together(data, both)) == ""
+    either = [named("camber", "camber", "inflation_pressure")]
+    assert on_changed_together(changed_together(data, either)) == ""

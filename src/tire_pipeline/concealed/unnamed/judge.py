@@ -150,7 +150,7 @@ def judged(case: OpenCase, mechanisms: Sequence[Mechanism], report: MismatchRepo
     share, possible = removed(before, after, oracle)
     names = tuple(e.name for e in report.effects)
     allowed = {CATALOGUE_NAMES[n] for n in case.named}
-    false = any(allowed.isdisjoint((e.name, *e.alternatives)) for e in report.effects)
+    false = any(allowed.isdisjoint(e.names) for e in report.effects)
     found = report.unnamed
     true = tuple(dict.fromkeys(d for m in mechanisms for d in m.drivers))
     said = found.physics.depends_on if found is not None and found.physics is not None else ()

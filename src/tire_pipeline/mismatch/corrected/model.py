@@ -235,7 +235,7 @@ class CorrectedModel:
         return notes
 
     def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
-        """Return the model with the noise of the recording that was explained.
+        """Return the model, cleaned or not, whichever predicts the recording that was explained better.
 
         Parameters
         ----------
@@ -250,16 +250,12 @@ class CorrectedModel:
         if not (self.cleaned and self._changed and "time" in recording):
             return self
         plain = replace(self, cleaned={})
-        channels = plain._data(recording).channels
-        start = beginnings(recording["time"].to_numpy(dtype=float), len(recording))
-        noise = {n: rms(channels[n] - denoise(channels[n], start)) for n in self.cleaned}
-        clean = replace(self, cleaned=noise)
         names = [o for o in self.outputs if o in recording]
         left = [
             sum(rms(recording[o] - frame[o]) ** 2 / max(rms(recording[o]) ** 2, 1e-300) for o in names)
-            for frame in (clean.predict(recording), plain.predict(recording))
+            for frame in (self.predict(recording), plain.predict(recording))
         ]
-        return clean if left[0] < left[1] else plain
+        return self if left[0] < left[1] else plain
 
     def limited_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
         """Return the model with the limits of those forces that are predicted no worse with them.

@@ -36,13 +36,13 @@ from tire_pipeline.mismatch.recording.usable import (
 from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.recordings.check import LONG_STEP
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
-from tire_pipeline.recordings.stretches import stretches
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
     LEAST_SAMPLES,
     LEAST_WHOLE,
     LONGEST_HOLE,
     apart,
+    short_holes,
 )
 
 Array = np.ndarray
@@ -75,11 +75,9 @@ class Prepared:
         What was not stated: axes, units, repairs, channels taken as zero.
     questions : list of Question
         Questions to settle before anything is explained, or before anything corrected is written, in this
-        order.
+        order. One that is not likely is asked only if sets of effects do not answer it.
     left_out : mapping of ndarray of int
         Force -> rows of the recording in which the wheel stands, or whose value is unlike all around it.
-    suspected : Question, optional
-        A question that is asked only if what it asks is likelier than any explanation.
     """
 
     recording: pd.DataFrame
@@ -92,12 +90,16 @@ class Prepared:
     assumed: list[str] = field(default_factory=list)
     questions: list[Question] = field(default_factory=list)
     left_out: Mapping[str, Array] = field(default_factory=dict)
-    suspected: Question | None = None
 
     @property
     def question(self) -> Question | None:
         """The question to settle first."""
-        return self.questions[0] if self.questions else None
+        return next((q for q in self.questions if q.likely), None)
+
+    @property
+    def suspected(self) -> Question | None:
+        """The question that is not likely."""
+        return next((q for q in self.questions if not q.likely), None)
 
     @property
     def stopped(self) -> str:
@@ -198,12 +200,11 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
-    asked, suspected = [in_two_units(recording), unusable], None
+    asked = [in_two_units(recording), unusable]
     if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
         axes = open_axes(tire, arrays, time, findings, against)
-        other = another_tire(tire, arrays, driven)
-        asked, suspected = ([other, axes], None) if other is None or other.likely else ([axes], other)
+        asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = beginnings(time, rows.size, rows)
@@ -228,9 +229,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         data = _better_followed(with_relaxation(own_relaxation=own), data, notes)
     left_out = {n: gone for n, gone in out.items() if gone.size}
     recording, questions = without_values(recording, left_out), [q for q in asked if q]
-    return Prepared(
-        recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out, suspected
-    )
+    return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
@@ -317,9 +316,7 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         if not missing.any() or missing.all():
             continue
         known = np.flatnonzero(~missing)
-        for first, last in stretches(missing):
-            if last - first <= LONGEST_HOLE and first > 0 and last < x.size:
-                filled[first:last] = True
+        filled |= short_holes(missing)
         holes = np.flatnonzero(filled & missing)
         arrays[name] = x.copy()
         arrays[name][holes] = np.interp(holes, known, x[known])

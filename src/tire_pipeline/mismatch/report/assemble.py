@@ -30,7 +30,11 @@ from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
-from tire_pipeline.mismatch.report.changed_together import changed_by_itself, on_changed_together
+from tire_pipeline.mismatch.report.changed_together import (
+    changed_by_itself,
+    changed_together,
+    on_changed_together,
+)
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
 from tire_pipeline.mismatch.report.headline.sentences import head, on_question, with_own_lag
@@ -129,14 +133,15 @@ def assembled(it: Explained) -> MismatchReport:
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
     rivals = [each.names for each in answer.rivals] or answer.beside_unnamed
     added = bool(put_in.names or prepared.findings or not effects)
+    together = changed_together(data, effects)
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
     told = with_own_lag(told, fit, data.followed_relaxation, before).beside(
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
         on_several(effects if model.instead else []),
         on_moments(fit),
-        on_expected(_unseen(it, effects)),
-        on_changed_together(data, effects),
+        on_expected([n for n in _unseen(it, effects) if changed_by_itself(together, n)]),
+        on_changed_together(together),
     )
     if prepared.question is not None:
         told = on_question(prepared.question, told)
@@ -194,9 +199,8 @@ def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
 
 def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
     """Return effects that physics expects in this recording and that no set of names contains."""
-    said = {name for effect in effects for name in (effect.name, *effect.alternatives)}
-    expected = sorted(it.sets.likelihood.unknown.expected - said)
-    return [name for name in expected if changed_by_itself(it.analysis.data, effects, name)]
+    said = {name for effect in effects for name in effect.names}
+    return sorted(it.sets.likelihood.unknown.expected - said)
 
 
 def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:

@@ -18,8 +18,10 @@ _TOLD = 0.9
 is estimated of each, the usual limit of regression (Marquardt 1970, Technometrics 12:591)."""
 
 
-def on_changed_together(data: Context, effects: Sequence[EffectReport]) -> str:
-    """Say which causes only the form of their force tells from a named one: their channels changed together.
+def changed_together(
+    data: Context, effects: Sequence[EffectReport]
+) -> dict[tuple[str, str], tuple[str, ...]]:
+    """Return which channels changed together with the channel of a named effect, though no name has them.
 
     Parameters
     ----------
@@ -29,30 +31,31 @@ def on_changed_together(data: Context, effects: Sequence[EffectReport]) -> str:
 
     Returns
     -------
-    str
-        "" where each named effect's channel changed by itself.
+    dict
+        Title of a named effect, and its channel -> channels that other effects follow; only where there are
+        any.
     """
-    return " ".join(
-        _sentence(effect.title, channel, others)
+    named = {name for effect in effects for name in effect.names}
+    known = {channel for name in named for channel in _channels(name)}
+    other = {channel for name in set(catalogue()) - named for channel in _channels(name)} - known
+    states = {c: data.smooth(c) for c in OPERATING_CHANNELS if data.varies(c)} if named else {}
+    found = {
+        (effect.title, channel): tuple(c for c in _together(channel, states) if c in other)
         for effect in effects
-        for channel, others in _unexplained(data, effects, effect.name).items()
-    )
+        for channel in _channels(effect.name)
+        if channel in states
+    }
+    return {key: others for key, others in found.items() if others}
 
 
-def changed_by_itself(data: Context, effects: Sequence[EffectReport], name: str) -> bool:
-    """Whether no channel of an effect without a name changed together with that of a named one."""
-    others = {c for e in effects for each in _unexplained(data, effects, e.name).values() for c in each}
-    return not others & set(_channels(name))
+def on_changed_together(found: Mapping[tuple[str, str], tuple[str, ...]]) -> str:
+    """Say that a name rests on the form of its force alone, where :func:`changed_together` found channels."""
+    return " ".join(_sentence(title, channel, others) for (title, channel), others in found.items())
 
 
-def _unexplained(data: Context, effects: Sequence[EffectReport], name: str) -> dict[str, list[str]]:
-    """Return, for each channel of a named effect, those of causes without a name that changed with it."""
-    said = {n for effect in effects for n in (effect.name, *effect.alternatives)}
-    explained = {channel for n in said for channel in _channels(n)}
-    could = {channel for n in set(catalogue()) - said for channel in _channels(n)} - explained
-    states = {c: data.smooth(c) for c in OPERATING_CHANNELS if data.varies(c)}
-    found = {c: [o for o in _together(c, states) if o in could] for c in _channels(name) if c in states}
-    return {channel: others for channel, others in found.items() if others}
+def changed_by_itself(found: Mapping[tuple[str, str], tuple[str, ...]], name: str) -> bool:
+    """Whether no channel of this effect is among those that :func:`changed_together` found."""
+    return {c for others in found.values() for c in others}.isdisjoint(_channels(name))
 
 
 def _channels(name: str) -> tuple[str, ...]:

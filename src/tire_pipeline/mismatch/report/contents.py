@@ -153,6 +153,11 @@ class EffectReport:
     undetermined: tuple[str, ...] = ()
     same_faults: tuple[str, ...] = ()
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The name and its alternatives: one of them is the cause."""
+        return (self.name, *self.alternatives)
+
     def rows(self) -> list[tuple[str, str, str, str]]:
         """Return each parameter's value, its 95% interval, and whether it may have no effect.
 

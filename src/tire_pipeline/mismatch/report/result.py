@@ -88,7 +88,7 @@ class MismatchReport(ReportContents):
     @property
     def sets(self) -> list[tuple[tuple[str, ...], float]]:
         """What was found: names of which one is the cause, likeliest first, and the confidence of the set."""
-        return [((e.name, *e.alternatives), e.confidence) for e in self.effects]
+        return [(e.names, e.confidence) for e in self.effects]
 
     def __repr__(self) -> str:
         names = ", ".join(effect.name for effect in self.effects) or "no effect"

@@ -130,6 +130,12 @@ def read_tir(
         raise _with_line(error, reading, file) from None
 
 
+def file_warnings(model: TireModel) -> list[str]:
+    """Return the sentences about contradictions and oddities of a model's file; none if it has no file."""
+    found = model.metadata.get("warnings", ())
+    return [str(text) for text in found] if isinstance(found, list | tuple) else []
+
+
 def _state_radius(reading: Reading, radius: float | None) -> None:
     """Use the caller's radius if the file has none, with a warning; warn if there is none at all."""
     if radius is not None:

@@ -37,7 +37,8 @@ def settled(
         return prepared, nothing(answer.case)
     if suspected is None or not named or probability_of_another_tire(sets, likely=False) < level:
         return prepared, answer
-    return replace(prepared, questions=[suspected, *prepared.questions]), nothing(answer.case)
+    rest = [each for each in prepared.questions if each is not suspected]
+    return replace(prepared, questions=[replace(suspected, likely=True), *rest]), nothing(answer.case)
 
 
 def probability_of_another_tire(sets: Enumerated, *, likely: bool = True) -> float:
