@@ -29,17 +29,29 @@ def belt():
     return fit_magic_formula(flat.iloc[::5][channels], unloaded_radius=0.2).model, flat
 
 
-@pytest.mark.parametrize("delay", [pytest.param(0.02, marks=_LONG), 0.04, pytest.param(0.08, marks=_LONG)])
-def test_a_delay_at_one_speed_is_no_relaxation_by_itself(belt, delay):
-    tire, flat = belt
+def belt_late_by(flat, delay, every):
+    """The flat belt's rows, one of every few, with forces that are late within each sweep."""
     time, force = flat["time"].to_numpy(), flat["fy"].to_numpy()
     piece = np.cumsum(np.diff(time, prepend=time[0]) > 0.05)
     late = force.copy()
     for number in np.unique(piece):
         here = piece == number
         late[here] = np.interp(time[here] - delay, time[here], force[here])
-    sets = named_sets(tire, flat.assign(fy=late).iloc[::5].reset_index(drop=True))
-    assert relaxation_alone(sets) == []
+    return flat.assign(fy=late).iloc[::every].reset_index(drop=True)
+
+
+@pytest.mark.parametrize("delay", [pytest.param(0.02, marks=_LONG), 0.04, pytest.param(0.08, marks=_LONG)])
+def test_a_delay_at_one_speed_is_no_relaxation_by_itself(belt, delay):
+    tire, flat = belt
+    assert relaxation_alone(named_sets(tire, belt_late_by(flat, delay, 5))) == []
+
+
+@pytest.mark.parametrize("rate", [pytest.param(20, marks=_LONG), pytest.param(50, marks=_LONG), 100])
+def test_a_delay_at_one_speed_is_named_beside_the_relaxation(belt, rate):
+    """It was a relaxation or a low-pass filter, 0.98, at 50 and 100 Hz."""
+    tire, flat = belt
+    sets = named_sets(tire, belt_late_by(flat, 0.08, 100 // rate))
+    assert any({"relaxation_length", "time_delay"} <= names for names in sets), sets
 
 
 def steered(command):

@@ -11,7 +11,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, State
 from tire_pipeline.mismatch.effects.context import Context
 
-__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register"]
+__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register", "same_family"]
 
 GROUP = "tire_pipeline.effects"
 """Entry point under which an installed package offers effects of its own."""
@@ -41,6 +41,17 @@ def catalogue() -> dict[str, Effect]:
     for entry in entry_points(group=GROUP):
         _add(found, entry.load()())
     return found
+
+
+def same_family(one: str, other: str) -> bool:
+    """Return whether two effects are of one family, and so look alike.
+
+    Parameters
+    ----------
+    one, other : str
+        Names of effects.
+    """
+    return catalogue()[one].family == catalogue()[other].family != ""
 
 
 def register(effect: Effect) -> None:

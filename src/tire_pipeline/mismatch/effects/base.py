@@ -175,6 +175,8 @@ class Effect:
     parameters : tuple of Parameter
     looks_like : dict
         Name of another effect -> what tells them apart.
+    told_by : dict
+        Name of another effect -> the channel that has to vary to tell them apart, if it is one channel.
     experiment : str
         What to record to be sure of it.
     """
@@ -200,6 +202,7 @@ class Effect:
     in_one_stretch = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}
+    told_by: Mapping[str, str] = {}
     experiment = ""
     order = 50
 

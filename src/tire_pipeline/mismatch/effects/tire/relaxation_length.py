@@ -18,7 +18,7 @@ class RelaxationLength(Effect):
 
     Covers a length that is constant, falls with slip, or changes with load (PTY2) in proportion, or both;
     one for both slips, or another one along the wheel (PTX1) where both forces move. A tire's length is 0.1
-    to 6 of its radii. Not covered: a lag of camber and of the aligning moment (gyroscopic couple), of
+    to 4 of its radii. Not covered: a lag of camber and of the aligning moment (gyroscopic couple), of
     second order.
     """
 
@@ -45,6 +45,7 @@ class RelaxationLength(Effect):
         "time_delay": "a delay is the same at every speed",
         "low_pass": "a filter is the same at every speed",
     }
+    told_by = {"time_delay": "speed", "low_pass": "speed"}
     experiment = "record the same slip-angle sine at two speeds that differ by a factor of two or more"
     order = 30
 

@@ -51,17 +51,20 @@ class Hypothesis:
 
     def log_evidence(self, likelihood: Likelihood, products: Projected) -> float:
         """Return the log evidence of the hypothesis, with the products of all columns of its set."""
+        return self.evidence(likelihood, products).value + self.effects.spread
+
+    def evidence(self, likelihood: Likelihood, products: Projected) -> Evidence:
+        """Return the evidence of the columns, with the products of all columns of the set."""
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)
         scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
-        found = likelihood.evidence(
+        return likelihood.evidence(
             products.take(columns),
             scale,
             tailed=self.effects.tailed(columns.size),
             positive=self.effects.positive(columns.size),
             wide=self.wide,
         )
-        return found.value + self.effects.spread
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:

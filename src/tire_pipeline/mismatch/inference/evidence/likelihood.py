@@ -119,6 +119,8 @@ class Unknown:
         Effects of which physics leaves no doubt in this recording.
     apart : float
         Share of the samples that were measured separately and do not follow the one before.
+    steady : frozenset of str
+        Channels that do not vary and that would tell effects apart.
     """
 
     gram: Mapping[str, Array]
@@ -129,6 +131,7 @@ class Unknown:
     white: Mapping[str, float] = field(default_factory=dict)
     expected: frozenset[str] = frozenset()
     apart: float = 0.0
+    steady: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)

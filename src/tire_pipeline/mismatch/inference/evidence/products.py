@@ -154,10 +154,17 @@ class RecordingProducts:
         in_time, rest = self.data.time is not None, residual(self.data, [])
         white = {o: white_noise(r) / self.largest[o] if in_time else 0.0 for o, r in rest.items()}
         names = {v.name for v in self.analysis.variants}
-        sure = frozenset(n for n in names if catalogue()[n].expected(self.data))
-        sizes, count = self.analysis.sizes, self.data.size
+        tells = {channel for n in names for channel in catalogue()[n].told_by.values()}
         return Unknown(
-            self.gram, sizes, self.families, count, independent, white, sure, measured_apart(self.data)
+            self.gram,
+            self.analysis.sizes,
+            self.families,
+            self.data.size,
+            independent,
+            white,
+            expected=frozenset(n for n in names if catalogue()[n].expected(self.data)),
+            apart=measured_apart(self.data),
+            steady=frozenset(channel for channel in tells if not self.data.varies(channel)),
         )
 
     def independent(self, columns: Mapping[str, Array], found: Evidence) -> dict[str, float]:

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects import catalogue, same_family
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
+    Hypothesis,
     hypotheses,
     log_evidence,
     log_prior,
@@ -227,24 +228,36 @@ def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset
     even if it fits as well: that is what was expected of it, not what the recording says. So a wear is not
     told from a heat that nobody measured, whose lag may be anything.
     """
-    family = {name: catalogue()[name].family for each in case.sets for name in each.names}
-    alike = [
-        each
-        for each in case.sets
-        for name in best
-        if (other := _in_place(each.names, best, name)) is not None and family[other] == family[name] != ""
-    ]
-    if not alike:
-        return frozenset()
-    least = _best_fit(likelihood, next(each for each in case.sets if each.names == best)) + np.log(OPEN)
-    return frozenset(each.names for each in alike if _best_fit(likelihood, each) > least)
+    whole = next((each for each in case.sets if each.names == best), case.sets[0])
+    close = set()
+    for each in case.sets:
+        for name in best:
+            other = _in_place(each.names, best, name)
+            if other is None or not same_family(name, other):
+                continue
+            beside = _told_by(name, other) in case.unknown.steady
+            fits = (_best_fit(likelihood, one, beside_unnamed=beside) for one in (each, whole))
+            if next(fits) > next(fits) + np.log(OPEN):
+                close.add(each.names)
+    return frozenset(close)
 
 
-def _best_fit(likelihood: Likelihood, each: OfSet) -> float:
-    """Return the log likelihood of a set at its likeliest parameters, with what the priors say of these."""
-    found, scale = plain(likelihood, each), scales(each, likelihood.learnt)
-    narrower = np.linalg.slogdet(found.covariance / scale[:, None] / scale[None, :])[1]
-    return found.value + each.spread - 0.5 * float(narrower)
+def _told_by(one: str, other: str) -> str:
+    """Return the channel that has to vary to tell two effects apart, or nothing if it is not one channel."""
+    return catalogue()[one].told_by.get(other, "") or catalogue()[other].told_by.get(one, "")
+
+
+def _best_fit(likelihood: Likelihood, each: OfSet, *, beside_unnamed: bool) -> float:
+    """Return the log likelihood of a set at its likeliest parameters, with what the priors say of these.
+
+    What would tell two effects apart may not vary. What is left to tell them is a difference of their forms,
+    and something unnamed beside them may be what makes it: a delay of a tire that needs some way to build up
+    its force fades with slip as a longer way does.
+    """
+    hypothesis, own = Hypothesis(each, wide=beside_unnamed), scales(each, likelihood.learnt)
+    found = hypothesis.evidence(likelihood, likelihood.projected(each.products))
+    covariance = found.covariance[: own.size, : own.size] / own[:, None] / own[None, :]
+    return found.value + each.spread - 0.5 * float(np.linalg.slogdet(covariance)[1])
 
 
 def _set_of(case: OfCase, probabilities: Mapping[Names, float], names: Names) -> OfSet:

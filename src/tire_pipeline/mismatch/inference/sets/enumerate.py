@@ -1,5 +1,5 @@
-"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest
-pairs."""
+"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest pair,
+and those that differ from the likeliest by an effect that looks alike."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from itertools import combinations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import make_background
+from tire_pipeline.mismatch.effects import same_family
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, plain_evidence
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
@@ -77,6 +78,9 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
         fits[pair] = fitted(products, likelihood, _from_singles(fits, pair))
     for triple in _triples(likelihood, list(fits.values()), found):
         fits[triple] = fitted(products, likelihood, _from_singles(fits, triple))
+    for names in _swapped(likelihood, list(fits.values()), found):
+        if names not in fits:
+            fits[names] = fitted(products, likelihood, _from_singles(fits, names))
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
 
@@ -149,7 +153,7 @@ def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> 
     pairs = [each for each in fits if len(each.names) == 2]
     if not pairs:
         return []
-    first = max(pairs, key=lambda each: plain_evidence(likelihood, each)).names
+    first = _likeliest(likelihood, pairs).names
     others = [name for name in found.kept if name not in first]
 
     def beside(name: str) -> float:
@@ -157,3 +161,32 @@ def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> 
 
     chosen = sorted(others, key=lambda name: -beside(name))[:TRIPLES]
     return [tuple(sorted((*first, name))) for name in chosen]
+
+
+def _swapped(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
+    """Return the likeliest pair and triple with an effect of the same family in place of one of them.
+
+    Without these an effect is not told from what looks like it beside two others, but taken for it.
+    """
+    out: list[Names] = []
+    for count in (2, 3):
+        alike = [each for each in fits if len(each.names) == count]
+        best = _likeliest(likelihood, alike).names if alike else ()
+        for name in best:
+            others = set(best) - {name}
+            for other in found.kept:
+                if other not in best and same_family(name, other):
+                    out.append(tuple(sorted((*others, other))))
+    return out
+
+
+def _likeliest(likelihood: Likelihood, sets: Sequence[OfSet]) -> OfSet:
+    """Return the likeliest of some sets, by their evidence and by what physics expects."""
+
+    def mass(each: OfSet) -> float:
+        sure = len(likelihood.unknown.expected & set(each.names))
+        count, none = np.array([len(each.names) - sure]), np.array([0])
+        odds = likelihood.learnt.log_prior(count, np.array([sure]), unnamed=none, forms=none)
+        return plain_evidence(likelihood, each) + float(odds[0])
+
+    return max(sets, key=mass)
