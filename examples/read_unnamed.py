@@ -57,7 +57,7 @@ def _value(text, table, clock):
 
 
 def _added(entry, table):
-    known = entry["format"] == "unnamed physics 1" and set(entry["equation"]) <= {"fx", "fy"}
+    known = re.fullmatch("unnamed physics [12]", entry["format"]) and set(entry["equation"]) <= {"fx", "fy"}
     size = len(next(iter(table.values()))) if known else sys.exit("no format")
     usual = median(steps := [b - a for a, b in pairwise(table.get("time", [math.nan] * size))])
     starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]
@@ -68,7 +68,7 @@ def _added(entry, table):
     out = {o: _value(text, table, clock) for o, text in entry["equation"].items()}
     for symbol, (low, high) in entry["range"].items():
         width = max(entry["fade"][symbol] * (high - low), 1e-12)
-        fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in table[symbol]]
+        fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in _value(symbol, table, clock)]
         out = {o: [f * w for f, w in zip(force, fade, strict=True)] for o, force in out.items()}
     return out if all(map(math.isfinite, chain(*out.values()))) else sys.exit("it is not finite")
 

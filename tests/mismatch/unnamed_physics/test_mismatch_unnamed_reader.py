@@ -35,9 +35,15 @@ def as_read(entry, folder, without=()):
     return subprocess.run(command, check=False, capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("text", EQUATIONS)
-def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
-    found = physics(text)
+TOGETHER = "sqrt((0.003*fy*(v) + (-0.002)*fy)^2 + (0.0007*fy)^2)"
+
+
+@pytest.mark.parametrize(
+    ("text", "ranges"),
+    [*((text, None) for text in EQUATIONS), (EQUATIONS[0], {"v": (0.7, 1.3), TOGETHER: (0.0, 4.0)})],
+)
+def test_a_reader_without_our_code_gives_the_same_force(text, ranges, tmp_path):
+    found = physics(text, ranges)
     said = as_read(found.to_sidecar(), tmp_path).stdout
     read = np.array([float(row["fy"]) for row in csv.DictReader(said.splitlines())])
     own = found.change(table()[0])["fy"]

@@ -19,7 +19,9 @@ from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, MEANING, NominalValues
 
 Array = np.ndarray
-FORMAT = "unnamed physics 1"
+FORMAT = "unnamed physics 2"
+READ = ("unnamed physics 1", FORMAT)
+"""Formats that are read: in the first one each range is of one symbol."""
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
 since what turns with the way has another phase in another recording."""
@@ -50,7 +52,7 @@ class UnnamedPhysics:
     depends_on : tuple of str
     acts_on : str
     ranges : dict of str to (low, high)
-        Symbol -> the range in which the equation holds; it fades outside.
+        Symbol, or an expression of symbols -> the range in which the equation holds; it fades outside.
     nominal : NominalValues
     coefficients : dict of str to list of CoefficientInterval
         Output -> those of its terms in their order. The numbers inside of a term count as known.
@@ -72,9 +74,13 @@ class UnnamedPhysics:
     def channels(self) -> tuple[str, ...]:
         """Channels without which it cannot be added."""
         used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
-        needed = {CHANNEL[s] for s in (*used, *self.ranges) if s in CHANNEL}
+        needed = {CHANNEL[s] for s in used | self._of_ranges if s in CHANNEL}
         needed |= {"time", "speed"} & ({"time", "speed"} if "way" in used or self._by_way else set())
         return tuple(sorted(needed | ({"time"} if self._remembers else set())))
+
+    @property
+    def _of_ranges(self) -> frozenset[str]:
+        return frozenset[str]().union(*(parse(text).symbols for text in self.ranges))
 
     @property
     def _by_way(self) -> bool:
@@ -93,7 +99,7 @@ class UnnamedPhysics:
         """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
         out = np.ones(table.size)
         for symbol, (low, high) in self.ranges.items():
-            x, width = table.columns[symbol], max(_fade(symbol) * (high - low), 1e-12)
+            x, width = evaluate(parse(symbol), table), max(_fade(symbol) * (high - low), 1e-12)
             outside = np.maximum(np.maximum(low - x, x - high), 0.0) / width
             out = out * np.maximum(1.0 - outside, 0.0)
         return out
@@ -111,7 +117,7 @@ class UnnamedPhysics:
             "title": self.title,
             "equation": dict(self.equations),
             "unit": "N, added to the force of the same name",
-            "symbols": {s: MEANING[s] for s in MEANING if s in used | set(self.ranges)},
+            "symbols": {s: MEANING[s] for s in MEANING if s in used | self._of_ranges},
             "nominal": asdict(self.nominal),
             "coefficients": {o: [asdict(c) for c in each] for o, each in self.coefficients.items()},
             "range": {s: [float(low), float(high)] for s, (low, high) in self.ranges.items()},
@@ -138,8 +144,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
     try:
         if not isinstance(content, Mapping):
             raise ValueError("it is not a mapping")
-        if content.get("format") != FORMAT:
-            raise ValueError(f"its format is not {FORMAT!r}")
+        if content.get("format") not in READ:
+            raise ValueError(f"its format is none of {', '.join(READ)}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
         if not equations or set(equations) - set(TANGENTIAL_FORCES):
             raise ValueError("its equations are not of fx and fy")
@@ -149,7 +155,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
                 raise ValueError(f"it uses {', '.join(sorted(unknown))}")
         ranges = {str(s): (float(r[0]), float(r[1])) for s, r in content["range"].items()}
         if any(
-            s not in MEANING or not (np.isfinite([a, b]).all() and a <= b) for s, (a, b) in ranges.items()
+            parse(s).symbols - set(MEANING) or not (np.isfinite([a, b]).all() and a <= b)
+            for s, (a, b) in ranges.items()
         ):
             raise ValueError("its ranges are not ranges of known symbols")
         if content["fade"] != {s: _fade(s) for s in ranges}:

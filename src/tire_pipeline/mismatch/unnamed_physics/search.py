@@ -51,6 +51,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
+from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -244,7 +245,8 @@ def _physics(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedPh
         return None
     acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for p in parts for t in p.terms))
     drivers = tuple(sorted(frozenset[str]().union(*(p.drivers for p in parts))))
-    return UnnamedPhysics(texts, drivers, acts, _ranges(problem, texts), problem.nominal, sizes)
+    ranges = {**_ranges(problem, texts), **_together(parts)}
+    return UnnamedPhysics(texts, drivers, acts, ranges, problem.nominal, sizes)
 
 
 def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
@@ -261,6 +263,18 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
         low, high = (x.min(), x.max()) if symbol == "t" else span(x)
         short = 0.5 * max(held_within(symbol, x) - (high - low), 0.0)
         found[symbol] = (float(low - short), float(high + short))
+    return found
+
+
+def _together(parts: Sequence[ChosenEquation]) -> dict[str, tuple[float, float]]:
+    """Return how far the terms of each force were out together."""
+    found = {}
+    for part in parts:
+        columns = [(term, part.columns.of(term) or {}) for term in part.terms]
+        for o in part.proof.outputs:
+            seen = distance({t.text(o): of[o] for t, of in columns if t.text(o) and o in of})
+            if seen is not None:
+                found[seen[0]] = (0.0, seen[1])
     return found
 
 
