@@ -16,7 +16,9 @@ def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, 
     return {o: float(np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300)) for o in after}
 
 
-def each_left_out(analysis: Analysis, fit: Fit, *, refitted: bool = False) -> dict[str, Array]:
+def each_left_out(
+    analysis: Analysis, fit: Fit, *, refitted: bool = False, together: Array | None = None
+) -> dict[str, Array]:
     """Return residuals, N, with each sweep predicted by parameters fitted without it (no nuisance here).
 
     Parameters
@@ -26,15 +28,18 @@ def each_left_out(analysis: Analysis, fit: Fit, *, refitted: bool = False) -> di
         Its parameters move by one Gauss-Newton step when a sweep is left out.
     refitted : bool
         Whether the step goes on from where a larger set had them. Without it a fit stands where it ended.
+    together : ndarray of int, shape (sweeps,), optional
+        Sweeps of one number are left out together; each by itself if left out.
     """
     out = residual(analysis.data, fit.changes)
     if not fit.labels or fit.sweeps is None:
         return out
     count = analysis.system.count
     base = 0.0 if refitted else step_without(fit, np.zeros(count, bool))
-    for number in range(count):
-        delta = step_without(fit, np.arange(count) == number) - base
-        rows = analysis.block == number
+    group = np.arange(count) if together is None else together
+    for number in np.unique(group):
+        delta = step_without(fit, group == number) - base
+        rows = group[analysis.block] == number
         for o in out:
             out[o][rows] -= fit.columns[o][rows] @ delta
     return out

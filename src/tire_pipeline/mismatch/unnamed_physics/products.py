@@ -112,6 +112,11 @@ class Columns:
         self._white_rest: dict[str, Array] = {}
         self.stride = max(1, round(problem.table.size / ENOUGH_ROWS))
 
+    @property
+    def fold_of_sweep(self) -> Array:
+        """The fold of each sweep, shape (sweeps,)."""
+        return self.folds[np.unique(self.problem.block, return_index=True)[1]]
+
     def part(self, text: str) -> Array | None:
         """Return the value of an expression at each sample; None where it is not finite."""
         if text not in self._parts:

@@ -83,8 +83,8 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     """Return an equation that predicts unseen sweeps better than the named effects do, if there is one.
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
-    it weighs no equation. Here an equation alone, chosen and fitted without each operating condition, has to
-    leave surely less than the named effects fitted without each sweep. The names stay if they leave less with
+    it weighs no equation. Here an equation alone, chosen and fitted without some operating conditions, has to
+    leave surely less there than the named effects fitted without the same ones. The names stay if they leave less with
     an equation of their own residual: so a true cause keeps its name where something unnamed acts, too.
 
     Parameters
@@ -92,9 +92,9 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     analysis : Analysis
         With the set that is named.
     """
-    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))))
-    names = each_left_out(analysis, analysis.fit)
-    found, left = _better(problem, names)
+    columns = Columns(by_condition(problem_of(with_fit(analysis, Fit([], [])))))
+    names = each_left_out(analysis, analysis.fit, together=columns.fold_of_sweep)
+    found, left = _better(columns, names)
     if found is None or _stay(analysis, names, left):
         return None
     return replace(found, instead_of=tuple(analysis.fit.names))
@@ -111,15 +111,12 @@ def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Ar
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
     """The same against any rival: output -> what it leaves on unseen sweeps, N, shape (n,)."""
-    return _better(problem, rival)[0]
+    return _better(Columns(problem), rival)[0]
 
 
-def _better(
-    problem: Unexplained, rival: Mapping[str, Array]
-) -> tuple[UnnamedReport | None, dict[str, Array]]:
+def _better(columns: Columns, rival: Mapping[str, Array]) -> tuple[UnnamedReport | None, dict[str, Array]]:
     """Return what is better than a rival, and what it leaves on unseen sweeps, N."""
-    columns = Columns(problem)
-    choice = choose(columns)
+    problem, choice = columns.problem, choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
     if not any(
         surely_less(problem, rival, _left(problem, forces_of(columns, choice, m.terms))) for m in models
