@@ -84,8 +84,9 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
     it weighs no equation. Here an equation alone, chosen and fitted without some operating conditions, has to
-    leave surely less there than the named effects fitted without the same ones. The names stay if they leave less with
-    an equation of their own residual: so a true cause keeps its name where something unnamed acts, too.
+    leave surely less there than the named effects fitted without the same ones. The names stay if they leave
+    less with an equation of their own residual: so a true cause keeps its name where something unnamed acts,
+    too.
 
     Parameters
     ----------
