@@ -117,9 +117,15 @@ class _FormColumns:
         return np.concatenate([np.zeros(0, int), *(self._rows[k] for k in which)]).astype(int)
 
     def score(self, likelihood: Likelihood, *which: int) -> float:
-        """Return the log evidence of some forms together."""
+        """Return the log evidence of some forms together, with nothing unnamed or with something.
+
+        Both, as sets are weighed later. With an error of any size alone, what no set of linear forms makes as
+        small as usual tells no effect from another.
+        """
         picked = self.of(which)
-        return likelihood.evidence(self.products.take(picked), np.ones(picked.size), wide=True).value
+        products, ones = self.products.take(picked), np.ones(picked.size)
+        plain, wide = (likelihood.evidence(products, ones, wide=each).value for each in (False, True))
+        return float(np.logaddexp(plain, wide + likelihood.learnt.unnamed))
 
     def scores(self, likelihood: Likelihood) -> list[float]:
         """Return the log evidence of each form by itself."""
