@@ -125,13 +125,10 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         Forces that their slip drives.
     """
     outputs = [d.output for d in counted if d.varies and d.works]
-    found = [figures(tire, arrays, o) for o in outputs]
-    steady = [figures(tire, arrays, o, states=()) for o in outputs]
-    least = next((n for n in (SEVERAL, LEAST_OFF) if all(f.another(n) for f in (*found, *steady))), None)
-    if not found or least is None:
+    found = _all_off(tire, arrays, outputs)
+    if not found or _met_beside(tire, arrays, outputs):
         return None
-    if _met_beside(tire, arrays, outputs):
-        return None
+    likely, found = all(f.another(SEVERAL) for f in found), found[: len(outputs)]
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
     return Question(
@@ -143,8 +140,19 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "fit_magic_formula in Python)",
         "another tire",
         by_sets=True,
-        likely=least == SEVERAL,
+        likely=likely,
     )
+
+
+def _all_off(tire: Any, arrays: Mapping[str, Array], outputs: list[str]) -> list[Figures]:
+    """Return the figures of each force beside the recorded states, then without; none if one is not off."""
+    found: list[Figures] = []
+    for states in (RECORDED_STATES, ()):
+        for output in outputs:
+            found.append(figures(tire, arrays, output, states))
+            if not found[-1].another(LEAST_OFF):  # a fit takes long, and no other one changes the answer
+                return []
+    return found
 
 
 def _met_beside(tire: Any, arrays: Mapping[str, Array], outputs: list[str]) -> bool:
