@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -72,8 +73,10 @@ class Figures:
     values, errors : ndarray, shape (5,)
         Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
         bend); NaN where the recording does not determine them.
-    removed : float
-        Share of the squared mismatch that is gone with them, of what the recorded states leave.
+    left : float
+        Squared mismatch that is left with them.
+    without : callable
+        Gives the same with the recorded states alone; that takes another fit.
     known : ndarray of bool, shape (5,)
         Which of them the file can know: from one load it does not know how the others change with load.
     """
@@ -81,8 +84,14 @@ class Figures:
     output: str
     values: Array
     errors: Array
-    removed: float
+    left: float
+    without: Callable[[], float]
     known: Array
+
+    @cached_property
+    def removed(self) -> float:
+        """Share of the squared mismatch that is gone with them, of what the recorded states leave."""
+        return 1.0 - self.left / max(self.without(), 1e-300)
 
     @property
     def off(self) -> Array:
@@ -192,16 +201,20 @@ def figures(
     free, recorded, count = model.free, a[output], len(FIGURES)
     p, left, columns = _fit(model, recorded, np.flatnonzero(free))
     beside = np.arange(free.size) >= count
-    before = _fit(model, recorded, np.flatnonzero(beside))[1] if beside.any() else recorded - model(0.0 * p)
+
+    def without() -> float:
+        states = beside.any()
+        rest = _fit(model, recorded, np.flatnonzero(beside))[1] if states else recorded - model(0.0 * p)
+        return float(rest @ rest)
+
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
     errors, values = np.full(free.size, np.nan), np.where(free, p, np.nan)
     errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[:-1]
-    removed = 1.0 - float(left @ left) / max(float(before @ before), 1e-300)
     known = np.ones(count, bool)
     known[list(_LOADED)] = not beyond_known(a["normal_load"], loads_of_file(tire))
-    return Figures(output, values[:count], errors[:count], removed, known)
+    return Figures(output, values[:count], errors[:count], float(left @ left), without, known)
 
 
 def of_another_tire(
