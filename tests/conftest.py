@@ -7,7 +7,10 @@ test that are marked ci where they are listed. `make checks` runs just that. Wha
 
 from __future__ import annotations
 
+import gc
 import re
+from collections.abc import Generator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +109,17 @@ _LONGEST_FIRST = (
 Of a folder that is done in one process the first file stands for all."""
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Look for no garbage among what is imported and collected: nearly all of it stays until the end."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Do not import slow folders and files where no slow test is wanted: that takes as long as the others."""
     if "not slow" not in config.option.markexpr:
@@ -142,8 +156,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.ci)
         if item.nodeid in known:
             item.add_marker(pytest.mark.xfail(reason=_REASON, strict=True))
-        folder = item.path.relative_to(_HERE).parts[0]
-        if folder in _SLOW_FOLDERS:
+        if _in_tests(item.path).partition("/")[0] in _SLOW_FOLDERS:
             item.add_marker(pytest.mark.slow)
     place = {name: number for number, name in enumerate(_LONGEST_FIRST)}
-    items.sort(key=lambda item: place.get(item.path.relative_to(_HERE).as_posix(), len(place)))
+    items.sort(key=lambda item: place.get(_in_tests(item.path), len(place)))
+
+
+@cache
+def _in_tests(path: Path) -> str:
+    return path.relative_to(_HERE).as_posix()

@@ -1,4 +1,4 @@
-"""Tasks that workers of the tests do; they import this file by its path."""
+"""Tasks that workers of the tests do; they import this file, which loads little, by its path."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tire_pipeline.datasets.users_files.tir_folder import TirLoader
 from tire_pipeline.errors import TirError
 
 
@@ -63,16 +62,6 @@ class DiesUntil:
         from tire_pipeline.tir import read_tir
 
         return read_tir(self.path)
-
-
-@dataclass(frozen=True)
-class NotedLoader(TirLoader):
-    """Reads a file as a run does; each reading leaves a letter beside it."""
-
-    def __call__(self) -> Any:
-        with Path(f"{self.path}.read").open("a") as file:
-            file.write("x")
-        return super().__call__()
 
 
 @dataclass(frozen=True)

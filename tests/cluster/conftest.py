@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
+    """A scheduler and two workers for one file: they take a twentieth of a processor also while they wait."""
     pytest.importorskip("distributed", reason='the extra is not installed: pip install -e ".[cluster]"')
     from dask_processes import Processes
 

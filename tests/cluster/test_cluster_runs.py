@@ -12,6 +12,7 @@ from types import SimpleNamespace
 import cluster_tasks as tasks
 import pandas as pd
 import pytest
+from noted_loader import NotedLoader
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "retraining"))
 from retraining_files import put, tir_text
@@ -117,7 +118,7 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, cluster, cap
 
     monkeypatch.setattr(divided, "__defaults__", (2,))
     places = [put(tmp_path / "tir", f"A/{n}.tir", tir_text(n, "A")) for n in range(300)]
-    files = {f"A/{path.name}": tasks.NotedLoader(str(path)) for path in places}
+    files = {f"A/{path.name}": NotedLoader(str(path)) for path in places}
     blocks = read_files(files)
     own = Processes(tmp_path)
     _choose(scheduler=own.address, wait_seconds=120)

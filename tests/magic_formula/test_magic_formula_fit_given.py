@@ -281,6 +281,7 @@ def in_kn(**more):
         (in_kn(pressure=83e3), {}, "N is a model car's, but a pressure was recorded"),
         (in_kn(), {"unloaded_radius": 0.3}, "but the wheel has a radius of 0.3 m"),
         (in_kn(), {"nominal_load": 4000.0}, "but the nominal load is 4,000 N"),
+        (FEW, {"start": TIRE.replace(UNLOADED_RADIUS=320.0)}, "no tire has an unloaded radius of 320 m"),
     ],
 )
 def test_what_no_tire_has_of_load_pressure_and_radius_is_no_success(table, options, said):

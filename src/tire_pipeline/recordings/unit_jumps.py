@@ -242,8 +242,9 @@ def _ratio_at_same_conditions(before: np.ndarray, after: np.ndarray, *, of_force
         one, two = (part[part[:, 1] > _JUMP_CLEAR * sizes[0]] for part in (one, two))
     if not len(one) or not len(two):
         return 0.0
-    apart = np.abs(one[:, None, 1:] - two[None, :, 1:]) / sizes
-    distance = apart.max(axis=2)
+    distance = np.zeros((len(one), len(two)))
+    for x, y, size_of in zip(one.T[1:], two.T[1:], sizes, strict=True):  # a short last axis takes long
+        np.maximum(distance, np.abs(x[:, None] - y[None, :]) / size_of, out=distance)
     nearest = distance.argmin(axis=0)
     pairs = distance[nearest, np.arange(len(two))] < _JUMP_NEAR
     x, y = one[nearest[pairs], 0], two[pairs, 0]

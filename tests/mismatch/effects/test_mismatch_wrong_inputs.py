@@ -18,15 +18,22 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
-def test_an_effect_takes_back_what_its_channel_reads_wrong(braked, name):
-    """The model at the misread channel, with the effect, gives the forces at the true one."""
+@pytest.fixture(scope="module")
+def as_it_was(braked):
+    """A file, brake sweeps that it gives, and these as they are prepared."""
     file = weighted(braked)
     recording = brake_sweeps(file, (-3.0, 5.0))
+    return file, recording, prepare(file, recording).data
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_an_effect_takes_back_what_its_channel_reads_wrong(as_it_was, name):
+    """The model at the misread channel, with the effect, gives the forces at the true one."""
+    file, recording, truth = as_it_was
     effect = catalogue()[name]
     true = recording[effect.wrong_channel].to_numpy()
     misread = recording.assign(**{effect.wrong_channel: effect.misread(true, WRONG[name])})
-    truth, data = prepare(file, recording).data, prepare(file, misread).data
+    data = prepare(file, misread).data
     found = simulate(data, [(name, {**effect.zeros(data), **WRONG[name]})])
     for output, force in truth.simulation.base.items():
         largest = np.abs(force).max()

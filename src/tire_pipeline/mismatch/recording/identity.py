@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -72,8 +73,10 @@ class Figures:
     values, errors : ndarray, shape (5,)
         Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
         bend); NaN where the recording does not determine them.
-    removed : float
-        Share of the squared mismatch that is gone with them, of what the recorded states leave.
+    left : float
+        Squared mismatch that is left with them.
+    without : callable
+        Gives the same with the recorded states alone; that takes another fit.
     known : ndarray of bool, shape (5,)
         Which of them the file can know: from one load it does not know how the others change with load.
     """
@@ -81,8 +84,14 @@ class Figures:
     output: str
     values: Array
     errors: Array
-    removed: float
+    left: float
+    without: Callable[[], float]
     known: Array
+
+    @cached_property
+    def removed(self) -> float:
+        """Share of the squared mismatch that is gone with them, of what the recorded states leave."""
+        return 1.0 - self.left / max(self.without(), 1e-300)
 
     @property
     def off(self) -> Array:
@@ -125,13 +134,10 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         Forces that their slip drives.
     """
     outputs = [d.output for d in counted if d.varies and d.works]
-    found = [figures(tire, arrays, o) for o in outputs]
-    steady = [figures(tire, arrays, o, states=()) for o in outputs]
-    least = next((n for n in (SEVERAL, LEAST_OFF) if all(f.another(n) for f in (*found, *steady))), None)
-    if not found or least is None:
+    found = _all_off(tire, arrays, outputs)
+    if not found or _met_beside(tire, arrays, outputs):
         return None
-    if _met_beside(tire, arrays, outputs):
-        return None
+    likely, found = all(f.another(SEVERAL) for f in found), found[: len(outputs)]
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
     return Question(
@@ -143,8 +149,19 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "fit_magic_formula in Python)",
         "another tire",
         by_sets=True,
-        likely=least == SEVERAL,
+        likely=likely,
     )
+
+
+def _all_off(tire: Any, arrays: Mapping[str, Array], outputs: list[str]) -> list[Figures]:
+    """Return the figures of each force beside the recorded states, then without; none if one is not off."""
+    found: list[Figures] = []
+    for states in (RECORDED_STATES, ()):
+        for output in outputs:
+            found.append(figures(tire, arrays, output, states))
+            if not found[-1].another(LEAST_OFF):  # a fit takes long, and no other one changes the answer
+                return []
+    return found
 
 
 def _met_beside(tire: Any, arrays: Mapping[str, Array], outputs: list[str]) -> bool:
@@ -184,16 +201,20 @@ def figures(
     free, recorded, count = model.free, a[output], len(FIGURES)
     p, left, columns = _fit(model, recorded, np.flatnonzero(free))
     beside = np.arange(free.size) >= count
-    before = _fit(model, recorded, np.flatnonzero(beside))[1] if beside.any() else recorded - model(0.0 * p)
+
+    def without() -> float:
+        states = beside.any()
+        rest = _fit(model, recorded, np.flatnonzero(beside))[1] if states else recorded - model(0.0 * p)
+        return float(rest @ rest)
+
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
     errors, values = np.full(free.size, np.nan), np.where(free, p, np.nan)
     errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[:-1]
-    removed = 1.0 - float(left @ left) / max(float(before @ before), 1e-300)
     known = np.ones(count, bool)
     known[list(_LOADED)] = not beyond_known(a["normal_load"], loads_of_file(tire))
-    return Figures(output, values[:count], errors[:count], removed, known)
+    return Figures(output, values[:count], errors[:count], float(left @ left), without, known)
 
 
 def of_another_tire(
