@@ -53,6 +53,7 @@ def command(file: Path, loads: tuple[float, ...], camber: float, radius: float |
 
 def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> CommandOutcome:
     from tire_pipeline.magic_formula.key_figures import key_figures
+    from tire_pipeline.tir.reading.plausibility import unlike_iso
     from tire_pipeline.tir.reading.read import file_warnings
 
     figures = key_figures(model)
@@ -68,7 +69,9 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
-    odd = file_warnings(model)
+    turned = unlike_iso(model.coefficients)
+    lines += [f"{said}." for said in turned]
+    odd = [said for said in file_warnings(model) if said not in turned]
     key = Grid(
         ("quantity", "value", "unit"),
         [
@@ -86,7 +89,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         "missing": dict(model.defaulted),
         "ranges": ranges,
         "key_figures": {f.name: {"value": f.value, "unit": f.unit} for f in figures},
-        "warnings": odd,
+        "warnings": [*turned, *odd],
     }
     grids = [key, *([valid] if ranges else [])]
 
