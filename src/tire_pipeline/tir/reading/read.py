@@ -28,6 +28,8 @@ from tire_pipeline.tir.reading.two_tires import refuse_two_tires
 from tire_pipeline.tir.sidecar import read_sidecar
 from tire_pipeline.tir.text.document import Entry, Scan, TirFile, parse_tir
 
+NEXT_WARNING = " | "
+"""Between the warnings of a file where they stand in one cell of a table."""
 _MAX_WARNINGS = 100
 _NAMED_SECTIONS = 5
 _HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
