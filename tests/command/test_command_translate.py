@@ -202,3 +202,15 @@ def test_a_side_force_of_the_other_sign_is_the_reason_for_a_refusal(folder):
     )
     assert "export the file in ISO W" in said["reason"]
     assert said["distance"] is None
+
+
+def test_without_a_translator_the_error_says_where_one_is_or_which_command_makes_one(folder):
+    said = " ".join(run("translate", "A/tire.tir", code=2).stderr.split())
+    assert "no translator is given -> make one from the files of several suppliers by `kedro run" in said
+    assert "kedro run --pipeline translate" in said
+    Path("data").mkdir()
+    Path("06_models").rename("data/06_models")
+    said = " ".join(run("translate", "A/tire.tir", code=2).stderr.split())
+    assert said == "error: no translator is given -> add --model data/06_models/translator.npz"
+    run("translate", "A/tire.tir", "--model", said.rpartition(" ")[2], "--no-page")
+    assert Path("tire_as_D.tir").exists()
