@@ -114,3 +114,11 @@ def test_a_stiffness_that_no_tire_has_is_said_and_is_no_row_of_digits(folder):
     assert "PKY1 = -1e+30 is implausible: no tire is so stiff for its load" in shown
     assert "PDX1 = 12 is implausible: no tire has such a friction" in shown
     assert re.search(r"cornering stiffness 5\.\d+e\+31 N/deg", shown)
+
+
+def test_show_has_no_row_for_the_peak_of_a_force_that_is_not_there(folder):
+    without("PDX1", "PCX1", "PKX1")
+    shown = run("show", "b.tir", "--no-page").stdout
+    assert "slip ratio of the peak" not in shown
+    assert "slip angle of the peak" in shown
+    assert "slip ratio of the peak" in run("show", "a.tir", "--no-page").stdout

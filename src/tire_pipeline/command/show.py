@@ -29,6 +29,11 @@ _FIRST = (
     "largest longitudinal friction",
 )
 """The key figures that a reader asks for first."""
+_PEAKS = {
+    "slip angle of the peak": "largest lateral friction",
+    "slip ratio of the peak": "largest longitudinal friction",
+}
+"""Where a peak lies, which may be beyond the range of the file -> the force that has it."""
 _MOMENT = ("QDZ", "SSZ")
 """Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
 
@@ -72,12 +77,14 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     turned = unlike_iso(model.coefficients)
     lines += [f"{said}." for said in turned]
     odd = [said for said in file_warnings(model) if said not in turned]
+    held = {f.name for f in figures if f.value == f.value}
+    open_peaks = {peak for peak, force in _PEAKS.items() if force in held}
     key = Grid(
         ("quantity", "value", "unit"),
         [
             (f.name, three_digits(f.value), f.unit or NO_UNIT)
             for f in figures
-            if f.value == f.value or "peak" in f.name
+            if f.value == f.value or f.name in open_peaks
         ],
         "At the nominal load, no camber",
     )
