@@ -30,7 +30,7 @@ ROW_COLUMNS = (
 )
 _COUNTED_TOO = ("source", "expected_rms_ratio", "taught")
 """What is counted, too: as it stands in the report."""
-_TEXTS = (
+_TEXT_COLUMNS = (
     "file",
     "source",
     "supplier_known",
@@ -67,7 +67,7 @@ def listed(
 def _rows_of(
     report: pd.DataFrame, made: Collection[str], tire: Callable[[str], str]
 ) -> Iterator[tuple[Any, ...]]:
-    texts = report.reindex(columns=list(_TEXTS))
+    texts = report.reindex(columns=list(_TEXT_COLUMNS))
     texts = texts.astype(object).where(texts.notna(), "")
     numbers = report.reindex(columns=["distance", "expected_rms_ratio", "taught"]).astype(float)
     for said, (distance, ratio, taught) in zip(texts.to_dict("records"), numbers.to_numpy(), strict=True):
