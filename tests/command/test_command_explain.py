@@ -59,3 +59,12 @@ def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
     assert "corrected.tir: nothing corrected is written" in result.stderr
     assert found in page(folder / "a_explain.html")
     assert not (folder / "corrected.tir").exists()
+
+
+def test_a_radius_that_no_wheel_has_is_said_beside_the_explanation(folder):
+    """A loaded radius of 305 m went unsaid: millimetres that were read as metres."""
+    record("run.csv")
+    pd.read_csv("run.csv").assign(loaded_radius=305.0).to_csv("mm.csv", index=False)
+    call = ("explain", "a.tir", "mm.csv", "--no-page", *FEW)
+    assert "note: loaded_radius is 305 m, which no wheel has; the unit is likely mm" in run(*call).stdout
+    assert "which no wheel has" not in run(*call, "--unit", "loaded_radius=mm").stdout

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
-from command_line import COEFFICIENTS, run, told
+from command_line import COEFFICIENTS, page, run, told
 
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir, write_tir
@@ -75,3 +76,49 @@ def test_compare_has_no_figure_of_a_moment_that_neither_file_has(folder):
     shown = run("compare", "a.tir", "b.tir", "--no-page").stdout
     (moment,) = [line for line in shown.splitlines() if line.startswith("Mz")]
     assert moment.split()[1:3] == ["–", "–"]
+
+
+@pytest.mark.parametrize(
+    ("turned", "said"),
+    [
+        (
+            {"PKY1": 22.0},
+            "a positive slip angle gives a positive Fy (PKY1 = 22)",
+        ),
+        (
+            {"PKY2": -2.1},
+            "a positive slip angle gives a positive Fy (PKY1 = -22)",
+        ),
+        (
+            {"PKX1": -22.0},
+            "a positive slip ratio gives a negative Fx (PKX1 = -22)",
+        ),
+    ],
+)
+def test_a_force_of_the_other_sign_than_in_iso_axes_is_said(folder, turned, said):
+    write_tir(read_tir("a.tir").replace(**turned), "b.tir")
+    shown = " ".join(run("show", "b.tir", "--page", "b.html").stdout.split())
+    assert shown.count(said) == 1
+    assert "note: F" not in shown
+    assert page(Path("b.html")).count(said) == 1
+    assert said in " ".join(run("compare", "a.tir", "b.tir").stdout.split())
+    for name in ("a.tir", "examples/tire.tir"):
+        usual = Path(__file__).parents[2] / name if "/" in name else name
+        assert "ISO W" not in run("show", usual, "--no-page").stdout
+
+
+def test_a_stiffness_that_no_tire_has_is_said_and_is_no_row_of_digits(folder):
+    """A stiffness of 32 digits stood in the first sentence, without a word."""
+    write_tir(read_tir("a.tir").replace(PKY1=-1e30, PDX1=12.0), "b.tir")
+    shown = " ".join(run("show", "b.tir", "--no-page").stdout.split())
+    assert "PKY1 = -1e+30 is implausible: no tire is so stiff for its load" in shown
+    assert "PDX1 = 12 is implausible: no tire has such a friction" in shown
+    assert re.search(r"cornering stiffness 5\.\d+e\+31 N/deg", shown)
+
+
+def test_show_has_no_row_for_the_peak_of_a_force_that_is_not_there(folder):
+    without("PDX1", "PCX1", "PKX1")
+    shown = run("show", "b.tir", "--no-page").stdout
+    assert "slip ratio of the peak" not in shown
+    assert "slip angle of the peak" in shown
+    assert "slip ratio of the peak" in run("show", "a.tir", "--no-page").stdout

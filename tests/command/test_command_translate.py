@@ -188,3 +188,29 @@ def test_what_is_unusual_in_the_file_is_said(folder):
     Path("A/twice.tir").write_text(text.replace(line, f"{line}\nPKY1 = -60"), "latin-1")
     call = ("translate", "A/twice.tir", "--model", "06_models/translator.npz", "--no-page")
     assert "PKY1 has two values" in " ".join(run(*call).stdout.split())
+
+
+def test_a_side_force_of_the_other_sign_is_the_reason_for_a_refusal(folder):
+    """The tire was outside of what D has measured, at a distance of 182, without a reason."""
+    tire = read_tir("A/tire.tir")
+    write_tir(tire.replace(PKY1=-tire.coefficients["PKY1"]), "A/turned.tir")
+    call = ("translate", "A/turned.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
+    said = json.loads(run(*call).stdout)
+    assert said["verdict"] == "refused"
+    assert said["reason"].startswith(
+        "Fy has the other sign than in ISO W, the axes of .tir files: a positive"
+    )
+    assert "export the file in ISO W" in said["reason"]
+    assert said["distance"] is None
+
+
+def test_without_a_translator_the_error_says_where_one_is_or_which_command_makes_one(folder):
+    said = " ".join(run("translate", "A/tire.tir", code=2).stderr.split())
+    assert "no translator is given -> make one from the files of several suppliers by `kedro run" in said
+    assert "kedro run --pipeline translate" in said
+    Path("data").mkdir()
+    Path("06_models").rename("data/06_models")
+    said = " ".join(run("translate", "A/tire.tir", code=2).stderr.split())
+    assert said == "error: no translator is given -> add --model data/06_models/translator.npz"
+    run("translate", "A/tire.tir", "--model", said.rpartition(" ")[2], "--no-page")
+    assert Path("tire_as_D.tir").exists()

@@ -303,3 +303,30 @@ def test_a_model_car_is_no_poor_fit(options):
 @pytest.mark.parametrize("version", ["5.2", "6.1"])
 def test_a_pressure_that_a_tire_has_is_no_poor_fit(version):
     assert fit_magic_formula(FEW.assign(pressure=69e3), version, starts=2).poor == {}
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "friction"), [(6.0, 14.0, 0.32), (10.0, 14.0, 0.32), (0.2, 10.0, 1.0)]
+)
+def test_one_direction_alone_is_no_matter_of_units_nor_of_another_channel(first, last, friction):
+    """At large slips of one sign a tire on snow was "a channel that does not belong", with 1% left."""
+    rows = one_direction(first, last, friction)
+    assert fit_magic_formula(rows, starts=4).poor == {}
+    with pytest.warns(PoorFitWarning, match="Likely reason: units; fy reaches no more than 0.00"):
+        fit_magic_formula(rows.assign(fy=rows["fy"] / 1e3), starts=4)
+
+
+def test_a_channel_that_hardly_changes_over_one_direction_may_well_belong():
+    rows = one_direction(0.2, 10.0, 1.0)
+    mx = np.random.default_rng(1).normal(0.0, 20.0, len(rows))
+    said = "mx: .* one direction only; slip_angle has one sign throughout, and mx hardly changes with it"
+    with pytest.warns(PoorFitWarning, match=said):
+        fit_magic_formula(rows.assign(mx=mx), starts=4, unloaded_radius=0.3)
+
+
+def one_direction(first: float, last: float, friction: float) -> pd.DataFrame:
+    slips, loads = np.meshgrid(np.radians(np.linspace(first, last, 60)), [2000.0, 4000.0, 6000.0])
+    slip, load = slips.ravel(), loads.ravel()
+    fy = TIRE.replace(PDY1=friction).forces(slip_angle=slip, normal_load=load).fy
+    noise = np.random.default_rng(0).normal(0.0, 20.0, slip.size)
+    return pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": fy + noise})

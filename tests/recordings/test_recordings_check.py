@@ -85,6 +85,8 @@ def in_two_signs():
         (good().assign(speed=200.0), "implausible_value", "warning", ()),
         (good().assign(tread_temperature=300.0), "implausible_value", "warning", ()),
         (good().assign(normal_load=3e6), "implausible_value", "warning", ()),
+        (good().assign(effective_radius=3755.0), "implausible_value", "warning", ()),
+        (good().assign(loaded_radius=0.0), "implausible_value", "warning", ()),
         (good().assign(normal_load=3.0), "implausible_friction", "warning", ()),
         (in_kn().assign(pressure=83e3), "small_load", "warning", ()),
         (in_kn().assign(loaded_radius=0.3), "small_load", "warning", ()),
@@ -112,6 +114,9 @@ def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
         ("normal_load", 3.0, None, ["kN"]),
         ("normal_load", 450.0, "N", ["kgf", "lbf"]),
         ("pressure", 0.0, None, []),
+        ("loaded_radius", 305.0, None, ["mm"]),
+        ("effective_radius", 31.0, "", ["mm", "cm", "in"]),
+        ("effective_radius", 3755e3, "m", []),
     ],
 )
 def test_what_no_tire_has_is_named_with_the_units_that_it_may_be_in(channel, value, file_unit, units):

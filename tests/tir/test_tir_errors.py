@@ -88,6 +88,39 @@ def test_values_that_make_no_sense(text: str, key: str, line: int | None):
     assert "->" in str(caught.value)  # what to do
 
 
+OTHER = {key: 1.1 * value for key, value in LATERAL.items()}
+
+
+@pytest.mark.parametrize(
+    ("second", "at"),
+    [
+        (
+            tir_text(model="FITTYP = 62\nLONGVL = 10", lateral=lateral(**OTHER)),
+            "5 sections are there a second time, [MDI_HEADER] first",
+        ),
+        (
+            tir_text(model="FITTYP = 52", lateral=lateral(**OTHER)).partition("[MODEL]")[2],
+            "[DIMENSION] first",
+        ),
+    ],
+)
+def test_two_tires_in_one_file_are_refused_where_the_second_starts(second: str, at: str):
+    """They were read as a mixture: what only one of them states came from that one."""
+    first = tir_text()
+    with pytest.raises(TirSyntaxError, match="there are two tires in it: ") as caught:
+        read_tir(f"{first}$ another\n{second}".encode(), path="x.tir")
+    assert (caught.value.path, caught.value.line) == ("x.tir", first.count("\n") + (2 if "MDI" in at else 4))
+    assert at in str(caught.value)
+    assert "(PCY1 is 1.3 in line 19 and 1.43" in str(caught.value)
+    assert "make one file of each tire" in str(caught.value)
+
+
+def test_one_tire_stated_twice_is_read():
+    assert read_tir((tir_text() + tir_text()).encode()).coefficients["PKY1"] == -20.0
+    edited = tir_text(more="[VERTICAL]\nFNOMIN = 4100\n[LATERAL_COEFFICIENTS]\nPKY1 = -21\nPCY1 = 1.4")
+    assert read_tir(edited.encode()).coefficients["PKY1"] == -21.0
+
+
 @pytest.mark.parametrize("fittyp", ["99", "4", "-5", "six", "6.15", "1e300", "60x"])
 def test_unknown_versions(fittyp: str):
     with pytest.raises(TirVersionError) as caught:

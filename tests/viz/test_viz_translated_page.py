@@ -41,6 +41,9 @@ def _report() -> pd.DataFrame:
         changes="D measures 6% more grip",
         bias_band="",
         protocol="",
+        notes=[
+            "PKY1 has two values | <i>TYRESIDE</i> is neither" if f == OWN[0] else "" for f in table["file"]
+        ],
     )
 
 
@@ -194,6 +197,25 @@ def test_search_and_filters(driver):
     reset(driver)
 
 
+def test_what_is_unusual_in_a_file_is_counted_filtered_and_shown_on_a_click(driver):
+    choose(driver, "noted", "some")
+    assert shown(driver) == ["new/mine.tir"]
+    (cell,) = driver.find_elements("css selector", "#files tbody tr:not(.detail) td:nth-child(7)")
+    assert cell.text == "2"
+    detail = click_file(driver, "new/mine.tir")
+    assert (
+        "Note on the file: PKY1 has two values\nNote on the file: <i>TYRESIDE</i> is neither" in detail.text
+    )
+    driver.find_element("css selector", "#files tr.open button.file").click()
+    choose(driver, "noted", "none")
+    assert count(driver) == "301 of 302 files: 1 to 100"
+    reset(driver)
+    driver.find_element("css selector", "[data-sort=noted]").click()
+    driver.find_element("css selector", "[data-sort=noted]").click()
+    assert shown(driver)[0] == "new/mine.tir"
+    reset(driver)
+
+
 def test_sorting(driver):
     choose(driver, "supplier", "B")
     for falling in (False, True):
@@ -315,9 +337,9 @@ def test_nothing_to_click_is_printed(driver):
         parts = driver.find_elements("css selector", "#controls, #turns, .screen")
         return sum(part.is_displayed() for part in parts)
 
-    assert seen("screen") == 4
+    assert seen("screen") == 5
     assert seen("print") == 0
-    assert seen("") == 4
+    assert seen("") == 5
 
 
 def test_nothing_of_a_file_name_runs_and_nothing_is_asked_for_elsewhere(driver, made):

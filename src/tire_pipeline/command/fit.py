@@ -55,7 +55,6 @@ def command(
 ) -> None:
     """Fit a model."""
     from tire_pipeline.magic_formula import fit_magic_formula
-    from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
     from tire_pipeline.recordings import join_recordings
     from tire_pipeline.recordings.spikes import without_spikes
     from tire_pipeline.tir import read_tir, write_tir
@@ -75,7 +74,7 @@ def command(
         unloaded_radius=radius,
     )
     if start is None:
-        result = replace(result, model=with_measured_ranges(result.model, result.measured))
+        result = replace(result, model=result.model_with_ranges)
     said = ", ".join(f"{name} {percent(value)}" for name, value in _fitted(result).items())
     write_tir(
         result.model,

@@ -29,6 +29,11 @@ _FIRST = (
     "largest longitudinal friction",
 )
 """The key figures that a reader asks for first."""
+_PEAKS = {
+    "slip angle of the peak": "largest lateral friction",
+    "slip ratio of the peak": "largest longitudinal friction",
+}
+"""Where a peak lies, which may be beyond the range of the file -> the force that has it."""
 _MOMENT = ("QDZ", "SSZ")
 """Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
 
@@ -53,6 +58,7 @@ def command(file: Path, loads: tuple[float, ...], camber: float, radius: float |
 
 def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> CommandOutcome:
     from tire_pipeline.magic_formula.key_figures import key_figures
+    from tire_pipeline.tir.reading.plausibility import unlike_iso
     from tire_pipeline.tir.reading.read import file_warnings
 
     figures = key_figures(model)
@@ -68,13 +74,17 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
-    odd = file_warnings(model)
+    turned = unlike_iso(model.coefficients)
+    lines += [f"{said}." for said in turned]
+    odd = [said for said in file_warnings(model) if said not in turned]
+    held = {f.name for f in figures if f.value == f.value}
+    open_peaks = {peak for peak, force in _PEAKS.items() if force in held}
     key = Grid(
         ("quantity", "value", "unit"),
         [
             (f.name, three_digits(f.value), f.unit or NO_UNIT)
             for f in figures
-            if f.value == f.value or "peak" in f.name
+            if f.value == f.value or f.name in open_peaks
         ],
         "At the nominal load, no camber",
     )
@@ -86,7 +96,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         "missing": dict(model.defaulted),
         "ranges": ranges,
         "key_figures": {f.name: {"value": f.value, "unit": f.unit} for f in figures},
-        "warnings": odd,
+        "warnings": [*turned, *odd],
     }
     grids = [key, *([valid] if ranges else [])]
 

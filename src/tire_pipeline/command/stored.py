@@ -57,6 +57,27 @@ def translator_state(path: Path) -> tuple[Mapping[str, Any], Path]:
     )
 
 
+def no_translator(project: Path) -> DomainError:
+    """Return the error of a call without a translator: where one is, or which command makes one.
+
+    Parameters
+    ----------
+    project : Path
+        A folder in which pipelines may have been run.
+    """
+    places = (f"data/06_models/{NAME}", f"data/*/06_models/{NAME}", "data/06_models/released")
+    found = [each for place in places for each in sorted(project.glob(place))]
+    if found:
+        several = f" (or {', '.join(map(str, found[1:]))})" if len(found) > 1 else ""
+        todo = f"add --model {found[0]}{several}"
+    else:
+        todo = (
+            "make one from the files of several suppliers by `kedro run --pipeline translate` in the "
+            f"project (docs/tutorials/your_supplier_files.md), then add --model data/06_models/{NAME}"
+        )
+    return DomainError("no translator is given", todo=todo)
+
+
 def _file(path: Path) -> Path:
     if path.is_file():
         return path

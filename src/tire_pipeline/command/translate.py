@@ -35,8 +35,8 @@ _APPLIED = (
     "--model",
     "stored",
     type=FILE,
-    required=True,
-    help="A fitted translator: its file, its versioned folder (the newest is taken) or a folder of releases.",
+    help="Required. A fitted translator: its file, its versioned folder (the newest is taken) or a folder of "
+    "releases.",
 )
 @click.option(
     "--from", "category", help="Who measured the tire. Default: the file's folder, if it is a known category."
@@ -59,7 +59,7 @@ _APPLIED = (
 @output_options()
 def command(
     file: Path,
-    stored: Path,
+    stored: Path | None,
     category: str | None,
     target: Path | None,
     nominal_load: float | None,
@@ -69,13 +69,15 @@ def command(
     **output: Any,
 ) -> None:
     """Translate a file."""
-    from tire_pipeline.command.stored import translator_state
+    from tire_pipeline.command.stored import no_translator, translator_state
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
     from tire_pipeline.tir.reading.read import file_warnings
     from tire_pipeline.translation.base import judging, translator_from_state
     from tire_pipeline.translation.files.of_models import translate_models
 
+    if stored is None:
+        raise no_translator(Path())
     model = read_tir(file, unloaded_radius=radius)
     state, source = translator_state(stored)
     translator = judging(translator_from_state(state))

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+_NO_FIGURE = 1e12
+"""No quantity of a tire is so large: only there a power of ten is read more easily than digits."""
+
 
 def in_digits(value: float, most: int = 3) -> str:
     """Return a number with the digits that matter: no power of ten for a large one, a dash for none.
@@ -12,7 +15,7 @@ def in_digits(value: float, most: int = 3) -> str:
     ----------
     value : float
     most : int
-        Significant digits. Digits before the decimal point are never left out.
+        Significant digits. Digits before the decimal point are left out from 1e12 on only.
 
     Returns
     -------
@@ -22,13 +25,15 @@ def in_digits(value: float, most: int = 3) -> str:
     --------
     >>> in_digits(0.92731), in_digits(57.93), in_digits(999.7), in_digits(128062.4), in_digits(float("nan"))
     ('0.927', '57.9', '1,000', '128,062', '–')
-    >>> in_digits(1234.56, 4), in_digits(0.00001234)
-    ('1,235', '1.23e-05')
+    >>> in_digits(1234.56, 4), in_digits(0.00001234), in_digits(1e30)
+    ('1,235', '1.23e-05', '1e+30')
     """
     if math.isnan(value):
         return "–"
     if math.isinf(value):
         return "∞" if value > 0 else "-∞"
+    if abs(value) >= _NO_FIGURE:
+        return f"{value:.{most}g}"
     text = f"{value:,.0f}" if abs(value) >= 10**most - 0.5 else f"{value:,.{most}g}"
     return "0" if text == "-0" else text
 

@@ -8,7 +8,7 @@ import pandas as pd
 from tire_pipeline.channels import RECORDED_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.measured import locked_parts
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
-from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
 from tire_pipeline.recordings.conventions.plausible import (
     FORCE_OVER_LOAD,
@@ -38,7 +38,7 @@ BREAK_OF_TIME_LINE = LONGEST_HOLE + 0.5
 """Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
 LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
-_UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
+_UNIT_OF_CHANNEL = {c.name: c.unit for c in (*CANONICAL, *FURTHER)}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
 _NAN_BLOCK = 10

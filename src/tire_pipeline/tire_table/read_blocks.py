@@ -16,6 +16,7 @@ from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.packed import as_parquet, from_parquet, member, pack, shape_of_parquet
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.tir.reading.read import NEXT_WARNING, file_warnings
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
 LoadTire = Callable[[], TireModel]
@@ -172,7 +173,6 @@ def _set_aside(row: dict[str, Any], reason: str, line: int | None) -> None:
 
 
 def _describe(row: dict[str, Any], tire: TireModel) -> None:
-    notes = tire.metadata.get("warnings", ())
     row["version"] = tire.version
     row["defaulted"] = " ".join(sorted(tire.defaulted))
-    row["notes"] = " | ".join(map(str, notes)) if isinstance(notes, list | tuple) else str(notes)
+    row["notes"] = NEXT_WARNING.join(file_warnings(tire))

@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.report.headline.sentences import (
     without_equation,
 )
 from tire_pipeline.mismatch.report.remarks import on_moments
-from tire_pipeline.mismatch.report.report_page import percent
+from tire_pipeline.mismatch.report.report_page import certainty_of, percent
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues
 
@@ -71,6 +71,24 @@ def test_three_sentences_of_which_the_last_says_what_to_do(case):
     assert 2 <= len(told) <= 3, told
     assert told[-1].startswith(("Next, ", "There is nothing to correct"))
     assert all(sentence[0].isupper() and sentence.endswith(".") for sentence in told)
+
+
+@pytest.mark.parametrize(
+    ("share", "told"),
+    [
+        (0.8, "; it removes 80% of the squared error on sweeps that its fit has not seen, mostly in Fy."),
+        (0.0, "; it removes none of the squared error on sweeps"),
+        (-0.1, "; it adds 10% to the squared error on sweeps"),
+        (1.7, "; without it the other effects leave a larger error than there was before on sweeps"),
+        (-1.7, "; beside the other effects it leaves a larger error than there was before on sweeps"),
+        (float("nan"), "Probability 99%."),
+    ],
+)
+def test_what_an_effect_removes_is_said_in_words_where_it_is_no_share(share, told):
+    """Where effects undo each other, "it removes – of the squared error"."""
+    said_of_it = certainty_of(replace(EFFECT, share=share))
+    assert told in said_of_it
+    assert "–" not in said_of_it
 
 
 def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():

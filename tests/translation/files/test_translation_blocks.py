@@ -123,6 +123,19 @@ class Same:
         return "as it was"
 
 
+def test_what_is_unusual_in_a_file_stands_in_its_row(mixed, monkeypatch, files, training):
+    """A second stiffness was read in silence; only the table of the files that were learned from told."""
+    model = next(load() for name, load in files.items() if name.startswith("A/"))
+    line = next(x for x in model.source.text.splitlines() if x.startswith("PKY1"))
+    text = model.source.text.replace(line, f"{line}\nPKY1 = -60\nPCY1 = 1.5")
+    some = {"A/plain.tir": lambda: model, "A/twice.tir": partial(read_tir, text.encode("latin-1"))}
+    _, found = _translated(_blocks(monkeypatch, 9, mixed, some, training), mixed)
+    notes = found["report"].set_index("file")["notes"]
+    twice = notes["A/twice.tir"].split(" | ")
+    assert len(twice) == len(notes["A/plain.tir"].split(" | ")) + (2 if notes["A/plain.tir"] else 1)
+    assert any(each.startswith("PKY1 has two values") for each in twice)
+
+
 def test_a_run_for_some_files_keeps_what_was_translated_of_the_others(mixed, files, training, tmp_path):
     folder = TextFolderDataset(path=str(tmp_path / "translated"))
     blocks = ComputedFolderDataset(path=str(tmp_path / "blocks"), only_the_last=True)

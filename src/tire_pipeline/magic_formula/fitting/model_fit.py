@@ -148,7 +148,8 @@ def fit_magic_formula(
         model = _stages(model, points, forces, options, report, simpler)
     if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
         notes.append(
-            "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
+            "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model; turn "
+            "the sign of slip_angle, or those of fy and mz, as the rig's manual says, before you use it"
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
     measured = pd.DataFrame({**points, **forces})
@@ -298,10 +299,22 @@ class _FitNotes:
         """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
         typical = {} if self.from_start else {n: at[n] for n in names if at and at[n] != 0.0}
         rest = [n for n in names if n not in typical]
-        where = "their start values" if self.from_start else "0"
-        parts = [f"{', '.join(rest)} kept at {where}"] if rest else []
+        where = f" kept at {'their start values' if self.from_start else '0'}"
+        if rest and not typical:
+            self._leave_together(reason, rest, where)
+            return
+        parts = [f"{', '.join(rest)}{where}"] if rest else []
         parts += [f"{n} kept at {value:g}" for n, value in typical.items()]
         self.undetermined.append(f"{reason}: {', '.join(parts)}")
+
+    def _leave_together(self, reason: str, names: Sequence[str], where: str) -> None:
+        """Note coefficients beside those that another stage left at the same value for the same reason."""
+        head, list_of_names = f"{reason}: ", ", ".join(names)
+        for i, text in enumerate(self.undetermined):
+            if text.startswith(head) and text.endswith(where) and text.count(" kept at ") == 1:
+                self.undetermined[i] = f"{text.removesuffix(where)}, {list_of_names}{where}"
+                return
+        self.undetermined.append(f"{head}{list_of_names}{where}")
 
     def add(self, stage: Stage, outcome: Outcome, rows: int) -> None:
         """Note what a stage has found."""

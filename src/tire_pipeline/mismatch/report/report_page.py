@@ -144,7 +144,7 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
     looks = catalogue()[effect.name].looks_like
     return {
         "it": effect,
-        "certainty": _certainty(effect),
+        "certainty": certainty_of(effect),
         "parameters": effect.rows(),
         "where": [interval(a, low, high) for a, (low, high) in effect.where.items()],
         "when": [f"{a:.1f} to {b:.1f} s" for a, b in effect.when[:12]],
@@ -157,17 +157,28 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
     }
 
 
-def _certainty(effect: EffectReport) -> str:
+def certainty_of(effect: EffectReport) -> str:
     """The certainty of the name, and its share of the error."""
     text = f"Probability {'over 99%' if effect.confidence > 0.995 else f'{effect.confidence:.0%}'}"
     if effect.alternatives:
         text += " that it is this or one of its alternatives"
-    if math.isfinite(effect.share):
-        text += (
-            f"; it removes {percent(effect.share)} of the squared error on sweeps that its fit has not seen"
-        )
-        text += f", mostly in {effect.output.capitalize()}"
+    removed = _removed(effect.share)
+    if removed:
+        text += f"; {removed} on sweeps that its fit has not seen, mostly in {effect.output.capitalize()}"
     return f"{text}."
+
+
+def _removed(share: float) -> str:
+    """What an effect does to the squared error, in words; nothing if it was found without a fit."""
+    if not math.isfinite(share):
+        return ""
+    if share > 1.0:
+        return "without it the other effects leave a larger error than there was before"
+    if share < -1.0:
+        return "beside the other effects it leaves a larger error than there was before"
+    if share < 0.0:
+        return f"it adds {percent(-share)} to the squared error"
+    return f"it removes {percent(share) if share else 'none'} of the squared error"
 
 
 def _evidence(evidence: dict[str, float | str]) -> str:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES
-from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.pages.numbers_in_words import in_digits
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 
@@ -32,6 +34,9 @@ class Plausible(NamedTuple):
     read_as: str = ""
 
 
+WHEEL_RADII = (0.004, 2.5)
+"""Loaded and effective radii of wheels, m."""
+
 PLAUSIBLE_VALUES = {
     "slip_angle": Plausible(0.0, 1.6, "a wheel that stands across its path has pi/2", "deg"),
     "camber": Plausible(0.0, 1.2, "a motorcycle leans by 65 degrees at most (1.13 rad)", "deg"),
@@ -42,6 +47,8 @@ PLAUSIBLE_VALUES = {
         *TIRE_PRESSURES, "racing cars of 0.6 bar to trucks of 9 bar (ETRTO), cold; a third more when hot"
     ),
     "tread_temperature": Plausible(0.0, 250.0, "above 200 degC rubber decomposes"),
+    "loaded_radius": Plausible(*WHEEL_RADII, "model cars at 1:87 to a mining truck's 59/80R63 (2.0 m)"),
+    "effective_radius": Plausible(*WHEEL_RADII, "as the loaded radius; a slipping wheel's is larger"),
 }
 """By channel. A low of 0 sets no lower limit: a channel that is constant is not a fault."""
 
@@ -65,6 +72,9 @@ _LIKELY_UNITS = (
     "Pa",
     "N",
     "m/s",
+    "mm",
+    "cm",
+    "in",
 )
 """Units that are proposed, as users write them."""
 _BULK = 0.98
@@ -86,6 +96,27 @@ def plausible(channel: str, large: float) -> bool:
     """Whether a tire can have a channel of some size (SI); a channel that is not in the table always can."""
     limits = PLAUSIBLE_VALUES.get(channel)
     return limits is None or np.isnan(large) or bool(limits.low <= large <= limits.high)
+
+
+def implausible_radii(recordings: Mapping[str, pd.DataFrame]) -> list[str]:
+    """Return a sentence for each channel of a radius that no wheel has: an explanation goes on without it.
+
+    Parameters
+    ----------
+    recordings : mapping of str to DataFrame
+        By name, which stands before the channel where there are several.
+    """
+    found = []
+    for name, frame in recordings.items():
+        for channel in ("loaded_radius", "effective_radius"):
+            if channel not in frame or not pd.api.types.is_numeric_dtype(frame[channel]):
+                continue
+            large = size(frame[channel].to_numpy(dtype=float))
+            if not plausible(channel, large):
+                where = f"{name}: {channel}" if len(recordings) > 1 else channel
+                ask = likely_unit_stated(frame, channel, likely_units(frame, channel, large))
+                found.append(f"{where} is {in_digits(large)} m, which no wheel has; {ask}")
+    return found
 
 
 def in_another_unit(channel: str, values: np.ndarray) -> bool:
@@ -138,7 +169,7 @@ def units_of_larger_loads(frame: pd.DataFrame, load: float) -> list[str]:
 
 def _read_otherwise(frame: pd.DataFrame, channel: str, large: float) -> list[tuple[str, float]]:
     """Return each other unit of a channel's kind, and the size that the channel would have in SI."""
-    known = next(c for c in CANONICAL if c.name == channel)
+    known = next(c for c in (*CANONICAL, *FURTHER) if c.name == channel)
     stated = find_unit(frame.attrs.get("file_units", {}).get(channel)) or find_unit(known.unit)
     assert stated is not None
     as_filed = (large - stated.offset) / stated.factor

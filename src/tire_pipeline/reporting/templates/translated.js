@@ -58,12 +58,14 @@
   function choose() {
     const words = field("search").value.toLowerCase().split(/\s+/).filter(Boolean);
     const supplier = field("supplier").value, verdict = field("verdict").value;
+    const noted = field("noted").value;
     const tire = field("tire").value.trim().toLowerCase(), whose = field("whose").value;
     shown = rows.filter(row =>
       (!supplier || row.cells[at.supplier] === supplier) &&
       (!verdict || row.cells[at.verdict] === verdict) &&
       (!tire || row.cells[at.tire].toLowerCase().includes(tire)) &&
       (!whose || row.cells[at.own] === (whose === "own")) &&
+      (!noted || row.cells[at.noted] > 0 === (noted === "some")) &&
       words.every(word => row.text.includes(word)));
     if (sort) {
       const key = at[sort], sign = falling ? -1 : 1;
@@ -111,6 +113,7 @@
       made.append(cell);
     }
     made.append(element("td", number(cells[at.distance]), "number"), element("td", percent(cells[at.ratio]), "number"));
+    made.append(element("td", cells[at.noted] ? counted(cells[at.noted]) : "–", "number"));
     made.addEventListener("click", () => { // of the button, too; a text that is being marked is no click
       if (getSelection().isCollapsed) toggle(row);
     });
@@ -127,7 +130,7 @@
     } else {
       row.detail = element("tr", undefined, "detail");
       const cell = element("td", undefined, "detail");
-      cell.colSpan = 6;
+      cell.colSpan = 7;
       row.detail.append(cell);
       const detail = row.detail;
       await show(row, cell);
@@ -153,6 +156,7 @@
     const applied = cells[at.verdict] === "translated" ? ". The less certain a difference is, the less of it is applied to the file." : ".";
     if (cells[at.changes]) said.push("As estimated from the training files: " + cells[at.changes] + applied);
     if (cells[at.bias]) said.push("The supplier's bias against the target (90% bands): " + cells[at.bias]);
+    if (cells[at.notes]) said.push(...cells[at.notes].split(data.between).map(each => "Note on the file: " + each));
     for (const each of said) {
       const paragraph = element("p");
       paragraph.append(element("bdi", each));
@@ -339,7 +343,7 @@
     options("verdict", "verdict");
     options("tires", "tire");
     for (const name of ["search", "tire"]) field(name).addEventListener("input", choose);
-    for (const name of ["supplier", "verdict", "whose"]) field(name).addEventListener("change", choose);
+    for (const name of ["supplier", "verdict", "whose", "noted"]) field(name).addEventListener("change", choose);
     field("controls").addEventListener("submit", event => event.preventDefault());
     field("controls").addEventListener("reset", () => setTimeout(() => {
       sort = null;

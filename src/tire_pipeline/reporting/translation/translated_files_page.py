@@ -17,6 +17,7 @@ from tire_pipeline.reporting.embedded import LEVELS, data_element_in_pieces, jso
 from tire_pipeline.reporting.page_parts import HOME, Table
 from tire_pipeline.reporting.translation.drawn_files import CURVES_TOGETHER, DrawnFiles
 from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, by_supplier, in_order
+from tire_pipeline.tir.reading.read import NEXT_WARNING
 
 
 def translated_page(
@@ -73,6 +74,7 @@ def _data(rows: RowsOnDisk, drawn: DrawnFiles) -> Iterator[Markup]:
     shown = ([visible(v) if isinstance(v, str) else v for v in row] for row in in_order(rows))
     data: dict[str, Any] = {
         "columns": list(ROW_COLUMNS),
+        "between": NEXT_WARNING,
         "together": CURVES_TOGETHER,
         "levels": LEVELS,
         "loads": drawn.normal_load,

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
+from tire_pipeline.tir.reading.read import NEXT_WARNING
 from tire_pipeline.translation.result import EDGE, TRANSLATED, UNBIASED, UNKNOWN
 
 ROW_COLUMNS = (
@@ -24,9 +25,22 @@ ROW_COLUMNS = (
     "changes",
     "bias",
     "protocol",
+    "noted",
+    "notes",
 )
 _COUNTED_TOO = ("source", "expected_rms_ratio", "taught")
 """What is counted, too: as it stands in the report."""
+_TEXT_COLUMNS = (
+    "file",
+    "source",
+    "supplier_known",
+    "verdict",
+    "reason",
+    "changes",
+    "bias_band",
+    "protocol",
+    "notes",
+)
 SHOWN_VERDICTS = ("translated", "already unbiased", "left alone", "refused", "unknown supplier")
 
 
@@ -53,13 +67,12 @@ def listed(
 def _rows_of(
     report: pd.DataFrame, made: Collection[str], tire: Callable[[str], str]
 ) -> Iterator[tuple[Any, ...]]:
-    texts = report.reindex(
-        columns=["file", "source", "supplier_known", "verdict", "reason", "changes", "bias_band", "protocol"]
-    )
+    texts = report.reindex(columns=list(_TEXT_COLUMNS))
     texts = texts.astype(object).where(texts.notna(), "")
     numbers = report.reindex(columns=["distance", "expected_rms_ratio", "taught"]).astype(float)
     for said, (distance, ratio, taught) in zip(texts.to_dict("records"), numbers.to_numpy(), strict=True):
         file, source = str(said["file"]), str(said["source"])
+        notes = str(said["notes"])
         yield (
             file,
             file not in made,
@@ -73,6 +86,8 @@ def _rows_of(
             said["changes"],
             said["bias_band"],
             said["protocol"],
+            notes.count(NEXT_WARNING) + 1 if notes else 0,
+            notes,
             source,
             ratio,
             taught,

@@ -23,6 +23,13 @@ _PLAUSIBLE_METADATA = {
     "DIMENSION.ASPECT_RATIO": (0.05, 1.5, ""),
     "INERTIA.MASS": (0.01, 3000.0, "kg"),
 }
+_LARGEST = {
+    "PKX1": (300.0, "is so stiff for its load"),
+    "PKY1": (300.0, "is so stiff for its load"),
+    "PDX1": (10.0, "has such a friction"),
+    "PDY1": (10.0, "has such a friction"),
+}
+"""Largest magnitudes, far beyond any tire: racing tires have 80 and 3."""
 
 
 def odd_values(
@@ -45,6 +52,10 @@ def odd_values(
                 found.append(
                     f"{key} = {value:g} {unit} is implausible: is it in another unit?".replace("  ", " ")
                 )
+    for key, (most, what) in _LARGEST.items():
+        if abs(coefficients.get(key, 0.0)) > most:
+            found.append(f"{key} = {coefficients[key]:g} is implausible: no tire {what}")
+    found += unlike_iso(coefficients)
     for key in ("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"):
         value = abs(coefficients.get(key, 0.0))
         if value > 3.2:
@@ -57,4 +68,35 @@ def odd_values(
     rim, radius = metadata.get("DIMENSION.RIM_RADIUS"), coefficients.get("UNLOADED_RADIUS")
     if isinstance(rim, float) and radius is not None and rim >= radius:
         found.append("RIM_RADIUS is not smaller than UNLOADED_RADIUS")
+    return found
+
+
+def unlike_iso(coefficients: Mapping[str, float]) -> list[str]:
+    """Return a sentence for each force that has the other sign than in ISO W axes, from its slip stiffness.
+
+    Parameters
+    ----------
+    coefficients : mapping
+
+    Examples
+    --------
+    >>> unlike_iso({"PKY1": -20.0, "PKY2": 2.0, "PKX1": 22.0})
+    []
+    >>> unlike_iso({"PKY1": 20.0, "PKY2": 2.0})[0].partition(": ")[2]
+    'a positive slip angle gives a positive Fy (PKY1 = 20); export the file in ISO W'
+    """
+    lateral = coefficients.get("PKY1", 0.0)
+    factors = (coefficients.get(name, 1.0) for name in ("PKY2", "PKY4", "LKY"))
+    longitudinal = coefficients.get("PKX1", 0.0)
+    found = []
+    if math.prod(math.copysign(1.0, each) for each in factors) * lateral > 0.0:
+        found.append(
+            "Fy has the other sign than in ISO W, the axes of .tir files: a positive slip angle gives a "
+            f"positive Fy (PKY1 = {lateral:g}); export the file in ISO W"
+        )
+    if longitudinal * coefficients.get("LKX", 1.0) < 0.0:
+        found.append(
+            "Fx has the other sign than in ISO W, the axes of .tir files: a positive slip ratio gives a "
+            f"negative Fx (PKX1 = {longitudinal:g}); export the file in ISO W"
+        )
     return found

@@ -24,9 +24,12 @@ from tire_pipeline.tir.format.values import parse_number
 from tire_pipeline.tir.format.version import detect_version
 from tire_pipeline.tir.reading.header_date import measurement_date
 from tire_pipeline.tir.reading.plausibility import odd_values
+from tire_pipeline.tir.reading.two_tires import refuse_two_tires
 from tire_pipeline.tir.sidecar import read_sidecar
 from tire_pipeline.tir.text.document import Entry, Scan, TirFile, parse_tir
 
+NEXT_WARNING = " | "
+"""Between the warnings of a file where they stand in one cell of a table."""
 _MAX_WARNINGS = 100
 _NAMED_SECTIONS = 5
 _HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
@@ -83,7 +86,7 @@ def read_tir(
     TirError
         The path cannot be read.
     TirSyntaxError
-        Empty, binary, over 5 MB, or without any Magic Formula coefficient.
+        Empty, binary, over 5 MB, without any Magic Formula coefficient, or with two tires in it.
     TirValueError
         A coefficient is not a number, is not finite, or has a value that the equations divide by (``FNOMIN =
         0``, ``PCY1 = 0``); a unit is not known. With file, line and key. ``unloaded_radius`` is no
@@ -159,6 +162,7 @@ def _state_radius(reading: Reading, radius: float | None) -> None:
 def interpret(file: TirFile) -> Reading:
     """Return the values of a file in SI; raises as :func:`read_tir`."""
     scan = file.scan()
+    refuse_two_tires(scan, file)
     reading = Reading()
     _read_units(scan, file, reading)
     _read_entries(scan, file, reading)

@@ -20,6 +20,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
+from tire_pipeline.tir.reading.read import NEXT_WARNING, file_warnings
 from tire_pipeline.tire_table import from_models
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
 from tire_pipeline.tire_table.read_blocks import TireFiles
@@ -170,7 +171,7 @@ class TranslateBlock:
         if not sources.models:
             return packed_part({}, {}, sources.unreadable, {}, kept)
         result = self.given.translator.translation(sources.table, farthest=self.given.farthest)
-        result = _named_suppliers(result, sources.table)
+        result = _with_notes(_named_suppliers(result, sources.table), sources)
         files = list(sources.own["file"])
         translated, comments = at_own_load(result, sources.models, sources.own)
         texts = {
@@ -269,6 +270,12 @@ def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> Transla
     targets = (report["supplier_known"] != BY_FOLDER) & (report["source"] == report["target"])
     report.loc[targets, "reason"] = "classified as the target's own"
     return replace(result, report=report)
+
+
+def _with_notes(result: TranslationResult, sources: Sources) -> TranslationResult:
+    """The result with what is unusual in each file, such as two values of a key."""
+    notes = [NEXT_WARNING.join(file_warnings(sources.models[file])) for file in sources.own["file"]]
+    return replace(result, report=result.report.assign(notes=notes))
 
 
 def _bands(result: TranslationResult, names: list[str]) -> pd.DataFrame:

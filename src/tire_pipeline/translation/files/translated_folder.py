@@ -55,8 +55,10 @@ TRANSLATION_TYPES = {
     "taught": "Int64",
     "protocol": "str",
     "changes": "str",
+    "notes": "str",
 }
-"""Columns of the report of all files, and their types: :class:`.result.TranslationResult`."""
+"""Columns of the report of all files, and their types: :class:`.result.TranslationResult`, and ``notes``:
+what is unusual in each file."""
 _IN_ORDER = "from rows order by unreadable, file"
 _FROM_TRANSLATED = "from rows where part is not null"
 _REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"

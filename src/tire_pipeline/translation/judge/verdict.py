@@ -9,6 +9,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.tir.reading.plausibility import unlike_iso
 from tire_pipeline.translation.curves.features import LOADS, encode
 from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.judge.bias_band import (
@@ -131,6 +132,8 @@ class VerdictRules:
             features = encode(source.iloc[usable])
             finite = np.all([np.isfinite(values).all(axis=1) for values in features.values()], axis=0)
             reason[usable[~finite]] = "its curves are not finite"
+            for i in usable[finite & _may_be_turned(source.iloc[usable])]:
+                reason[i] = "; ".join(unlike_iso(source.iloc[i]))
         return reason
 
     def empty_report(self, model: CurveMixedModel, source: pd.DataFrame, refused: np.ndarray) -> pd.DataFrame:
@@ -228,6 +231,12 @@ class VerdictRules:
             bool(state["option_gate"]),
             float(state.get("option_farthest", FARTHEST_DISTANCE)),
         )
+
+
+def _may_be_turned(rows: pd.DataFrame) -> np.ndarray:
+    """Rows that are worth a look at their signs, shape (n,): in ISO W both stiffnesses have the usual one."""
+    usual = np.sign(rows[["PKY1", "PKY2", "PKX1"]].to_numpy(dtype=float)) == (-1.0, 1.0, 1.0)
+    return np.asarray(~usual.all(axis=1))
 
 
 def _other_loads(rows: pd.DataFrame) -> np.ndarray:

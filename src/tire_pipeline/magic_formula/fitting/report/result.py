@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
 from tire_pipeline.magic_formula.forces import TireForces
 from tire_pipeline.magic_formula.model import TireModel
 
@@ -74,6 +75,14 @@ class FitResult:
     measured: pd.DataFrame | None = None
     poor: Mapping[str, str] = field(default_factory=dict)
     not_fitted: Sequence[str] = ()
+
+    @property
+    def model_with_ranges(self) -> TireModel:
+        """``model`` with the ranges of slips, camber, load and pressure that it was fitted to: what to write.
+
+        ``model`` states none. Forces are the same, also outside of the ranges, where their evaluation warns.
+        """
+        return with_measured_ranges(self.model, self.measured)
 
     def forces(self, **points: Any) -> TireForces:
         """Return the fitted model's forces.

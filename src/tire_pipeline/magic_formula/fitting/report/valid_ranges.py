@@ -8,6 +8,9 @@ import pandas as pd
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import RANGE_KEYS
 
+_NOISE = {"slip_angle": np.deg2rad(0.5), "camber": np.deg2rad(0.5), "slip_ratio": 0.01}
+"""Spans up to which an input was not varied: the angles of rigs stray by some hundredths of a degree."""
+
 
 def with_measured_ranges(model: TireModel, measured: pd.DataFrame | None) -> TireModel:
     """Return the model with the ranges of the points that it was fitted to.
@@ -23,7 +26,7 @@ def with_measured_ranges(model: TireModel, measured: pd.DataFrame | None) -> Tir
     -------
     TireModel
         With ``ALPMIN``, ``ALPMAX`` and so on for each input that varies. One at a single value states no
-        range: a simulator would clip everything else to it.
+        range, nor does the noise of a slip or camber at one: a simulator would clip everything else to it.
 
     Examples
     --------
@@ -36,6 +39,10 @@ def with_measured_ranges(model: TireModel, measured: pd.DataFrame | None) -> Tir
     for name, keys in RANGE_KEYS.items():
         values = measured[name].to_numpy(float) if measured is not None and name in measured else np.empty(0)
         values = values[np.isfinite(values)]
-        if values.size and np.ptp(values) > 0.0 and (name != "pressure" or model.family == 6):
+        if (
+            values.size
+            and np.ptp(values) > _NOISE.get(name, 0.0)
+            and (name != "pressure" or model.family == 6)
+        ):
             ranges |= dict(zip(keys, (float(values.min()), float(values.max())), strict=True))
     return model.replace(**ranges)

@@ -33,6 +33,10 @@ _ONE_SIGN, _NO_SIGN = 0.8, 0.4
 none, whatever a fit leaves."""
 _LOADS_DIFFER = 0.3
 """Spread of loads, over the middle one, from which the larger forces have to follow it."""
+_OTHER_SIGN = 0.02
+"""Share of slips of the other sign up to which a recording has one direction only."""
+_FROM_ZERO = 0.3
+"""The small slips, over the large ones, up to which the slip stiffness shows."""
 _SLIP_BINS = 20
 _ROWS_OF_BIN = 5
 
@@ -109,7 +113,7 @@ def poor_outputs(
             _falls(model, output, points, start) or _turned(output, seen, start)
         ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
-        units, levels = _units(output, points, seen) or inputs, _levels(model, output, at_bound)
+        units, levels = _units(output, points, seen) or inputs, _levels(model, output, seen, at_bound)
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
@@ -132,19 +136,36 @@ def _measured(output: str, points: Mapping[str, np.ndarray], measured: np.ndarra
     return _Measured(slip[good], points["normal_load"][good], measured[good])
 
 
-def _levels(model: TireModel, output: str, at_bound: Collection[str]) -> str:
+def _one_direction(seen: _Measured) -> bool:
+    """Whether the slip has one sign but for a few points: an offset stands for a part of the level then."""
+    if not seen.slip.size:
+        return False
+    return bool(min(np.mean(seen.slip > 0.0), np.mean(seen.slip < 0.0)) < _OTHER_SIGN)
+
+
+def _without_small_slips(seen: _Measured) -> bool:
+    """Whether one direction was measured at large slips only, where a force hardly changes with the slip."""
+    small, large = np.quantile(np.abs(seen.slip), [0.05, 0.95]) if seen.slip.size else (0.0, 0.0)
+    return _one_direction(seen) and bool(small > _FROM_ZERO * large)
+
+
+def _levels(model: TireModel, output: str, seen: _Measured, at_bound: Collection[str]) -> str:
     """Return which units to check if no tire has such a friction or slip stiffness."""
     if output not in TANGENTIAL_FORCES:
         return ""
+    if _without_small_slips(seen):
+        return _no_friction(output, seen)
     letter, slip = output[1].upper(), SLIP_OF_FORCE[output]
     unit = "radians" if output == "fy" else "a ratio, no percent"
     look = f"look at those of {slip} ({unit}), {output} and normal_load"
     for name, what in ((f"PD{letter}1", "friction"), (f"PK{letter}1", "the slip stiffness")):
-        if name in at_bound:
+        if name in at_bound and not (what == "friction" and _one_direction(seen)):
             low, high, _ = BOUNDS[name]
             least = abs(model.value(name)) < 0.5 * min(abs(high), high - low)
             return f"units; {what} is {'below' if least else 'beyond'} any tire's, {look}."
     friction = abs(model.value(f"PD{letter}1"))
+    if _one_direction(seen):
+        friction = max(friction, _friction(seen))
     load = model.value("FNOMIN")
     name = "slip_stiffness" if output == "fx" else "cornering_stiffness"
     forces = model.forces(normal_load=load, limits="ignore", outputs=(name,))
@@ -238,20 +259,38 @@ def _strange(output: str, seen: _Measured) -> str:
     name = SLIP_OF_FORCE.get(output, "slip_angle")
     where = "(another wheel, another run, or a shift in time)."
     if _explained(seen.slip, seen.force / seen.load) < _FOLLOWS:
+        if output not in TANGENTIAL_FORCES:
+            alone = _one_direction(seen)
+        elif said := _no_friction(output, seen):
+            return said
+        else:
+            alone = _without_small_slips(seen)
+        if alone:
+            return (
+                f"one direction only; {name} has one sign throughout, and {output} hardly changes with it: "
+                "record both directions, through zero."
+            )
         return f"a channel that does not belong; {output} hardly follows {name} {where}"
     if output not in TANGENTIAL_FORCES:
         return ""
-    if _friction(seen) < _NO_FRICTION:
-        return (
-            f"units; {output} reaches no more than {in_digits(_friction(seen))} times the load, "
-            f"look at the units of {output} and normal_load (newtons)."
-        )
+    if _no_friction(output, seen):
+        return _no_friction(output, seen)
     large = np.abs(seen.slip) >= np.median(np.abs(seen.slip))
     load, force = seen.load[large], np.abs(seen.force[large])
     differ = np.ptp(np.quantile(load, [0.02, 0.98])) > _LOADS_DIFFER * np.median(load)
     if differ and np.ptp(force) > 0.0 and np.corrcoef(load, force)[0, 1] < _FOLLOWS:
         return f"a channel that does not belong; {output} hardly follows normal_load {where}"
     return ""
+
+
+def _no_friction(output: str, seen: _Measured) -> str:
+    """Return which units to check if a force is far too small for its load, or nothing."""
+    if _friction(seen) >= _NO_FRICTION:
+        return ""
+    return (
+        f"units; {output} reaches no more than {in_digits(_friction(seen))} times the load, "
+        f"look at the units of {output} and normal_load (newtons)."
+    )
 
 
 _ELSE = (
