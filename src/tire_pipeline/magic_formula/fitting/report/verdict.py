@@ -8,7 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tire_pipeline.channels import ANGLE_CHANNELS, SLIP_OF_FORCE, TANGENTIAL_FORCES
-from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
+    BOUNDS,
+    PURE_SLIP_ANGLE,
+    PURE_SLIP_RATIO,
+)
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.pages.numbers_in_words import in_digits
@@ -117,7 +121,8 @@ def poor_outputs(
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or _signs(output, seen, start) or _strange(output, seen) or levels or _ELSE
+            reason = units or _not_driven(output, seen) or _signs(output, seen, start)
+            reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
 
@@ -252,6 +257,18 @@ def _lost_sign(output: str, seen: _Measured, least: float) -> bool:
         return False
     size, slip = np.abs(seen.force / seen.load), np.abs(seen.slip)
     return _explained(slip, size) > _FOLLOWS and float(np.corrcoef(slip, size)[0, 1]) > _FOLLOWS
+
+
+def _not_driven(output: str, seen: _Measured) -> str:
+    """Return that the slip was not swept, or nothing: a side effect of what was swept is no tire's force."""
+    name = SLIP_OF_FORCE.get(output, "slip_angle")
+    pure = PURE_SLIP_RATIO if name == "slip_ratio" else PURE_SLIP_ANGLE
+    if not seen.slip.size or float(np.quantile(np.abs(seen.slip), 0.95)) > pure:
+        return ""
+    return (
+        f"{name} was not swept; {output} is what ply steer, conicity, camber and the other slip make of it. "
+        f"The file says nothing of {output}: record sweeps of {name}."
+    )
 
 
 def _strange(output: str, seen: _Measured) -> str:

@@ -64,11 +64,12 @@ def first_values(
 def _slope_at_small_slip(slip: np.ndarray, normalised: np.ndarray) -> float:
     """Return the slope over the smallest fifth of the slips, or else to the smallest one that is not zero.
 
-    Sweeps in steps of two degrees have nothing but zero among their smallest fifth.
+    Sweeps in steps of two degrees have nothing but zero among their smallest fifth. A slip that is held, as
+    in braking at one slip angle, moves by noise: its slope there says nothing, not even its sign.
     """
     size = np.abs(slip)
     small = size < max(0.03, float(np.quantile(size, 0.2)))
-    if small.any() and np.ptp(slip[small]) > _NO_SLIP:
+    if small.any() and np.ptp(slip[small]) > max(_NO_SLIP, 0.5 * size[small].max()):
         return float(np.polyfit(slip[small], normalised[small], 1)[0])
     moved = size > _NO_SLIP
     if not moved.any():

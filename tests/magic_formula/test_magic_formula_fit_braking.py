@@ -1,0 +1,44 @@
+"""Fits to brake and drive sweeps at a slip angle that the rig holds, but for its noise."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from magic_formula_tires import tire_52
+
+from tire_pipeline.magic_formula import PoorFitWarning, fit_magic_formula
+
+
+def brake_sweeps(held, cambers=(0.0, 0.035, 0.07), seed=1):
+    """Sweeps of slip ratio at four loads and a held slip angle, rad; rig's noise on slips, load and forces."""
+    rng = np.random.default_rng(seed)
+    tire, sweep = tire_52(), 0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 60))
+    parts = []
+    for load in (0.4, 0.7, 1.1, 1.5):
+        for camber in cambers:
+            part = pd.DataFrame({"slip_ratio": sweep, "camber": camber})
+            part["slip_angle"] = held + rng.normal(0.0, 0.0009, sweep.size)
+            part["normal_load"] = load * tire.value("FNOMIN") + rng.normal(0.0, 25.0, sweep.size)
+            parts.append(part)
+    table = pd.concat(parts, ignore_index=True)
+    forces = tire.forces(**{name: table[name].to_numpy() for name in table}, limits="ignore")
+    for name in ("fx", "fy"):
+        table[name] = getattr(forces, name) + rng.normal(0.0, 20.0, len(table))
+    return table
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_held_slip_angle_does_not_turn_the_sign_of_the_cornering_stiffness(seed):
+    """The slope of the noise gave PKY1 = +200, with "the data are not in ISO axes"."""
+    fit = fit_magic_formula(brake_sweeps(-0.105, seed=seed), starts=2)
+    assert fit.model.value("PKY1") < 0.0
+    assert not fit.poor
+    assert not any("ISO" in note for note in fit.notes)
+
+
+def test_a_slip_angle_that_was_not_swept_is_the_reason_of_a_poor_side_force():
+    """It was "a channel that does not belong (another wheel, another run, or a shift in time)"."""
+    with pytest.warns(PoorFitWarning, match="slip_angle was not swept"):
+        fit = fit_magic_formula(brake_sweeps(0.0), starts=2)
+    assert "fx" not in fit.poor
