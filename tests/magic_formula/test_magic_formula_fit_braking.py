@@ -11,7 +11,7 @@ from tire_pipeline.magic_formula import PoorFitWarning, fit_magic_formula
 
 
 def brake_sweeps(held, cambers=(0.0, 0.035, 0.07), seed=1):
-    """Sweeps of slip ratio at four loads and a held slip angle, rad; rig's noise on slips, load and forces."""
+    """Sweeps of slip ratio at four loads and a held slip angle, rad, with a rig's noise on all channels."""
     rng = np.random.default_rng(seed)
     tire, sweep = tire_52(), 0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 60))
     parts = []

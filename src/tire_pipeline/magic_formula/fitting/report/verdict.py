@@ -121,8 +121,7 @@ def poor_outputs(
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or _not_driven(output, seen) or _signs(output, seen, start)
-            reason = reason or _strange(output, seen) or levels or _ELSE
+            reason = units or _signs(output, seen, start) or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
 
@@ -276,6 +275,8 @@ def _strange(output: str, seen: _Measured) -> str:
     name = SLIP_OF_FORCE.get(output, "slip_angle")
     where = "(another wheel, another run, or a shift in time)."
     if _explained(seen.slip, seen.force / seen.load) < _FOLLOWS:
+        if not_driven := _not_driven(output, seen):
+            return not_driven
         if output not in TANGENTIAL_FORCES:
             alone = _one_direction(seen)
         elif said := _no_friction(output, seen):
