@@ -9,6 +9,7 @@ import pytest
 
 from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.proof.held_out import made_worse
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.cleaning import Cleaning
@@ -349,5 +350,5 @@ def test_what_may_be_a_fault_or_the_tire_is_called_neither(name, alternatives, c
 
 @pytest.mark.parametrize(("low", "worse"), [(12.0, True), (9.0, False)])
 def test_a_moment_that_the_correction_makes_worse_is_said(low, worse):
-    told = on_moments({**FIT, "mz": OutputFit(1.0, 10.0, 15.0, low, 18.0)})
+    told = on_moments(made_worse({"mz": OutputFit(1.0, 10.0, 15.0, low, 18.0)}))
     assert ("Mz 10 N m before, 15 N m after" in told) is worse

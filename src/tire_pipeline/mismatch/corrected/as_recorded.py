@@ -59,6 +59,7 @@ def as_recorded(
     same = not (corrected.changes or corrected.factors or corrected.limits)
     after = before if same else _errors(corrected, recording, fit)
     first, last = (_left(analysis.data, changes, fit) for changes in ([], analysis.fit.changes))
+    last = {o: first[o] if o in corrected.as_filed else rest for o, rest in last.items()}
     inside = {o: rms(partly(first[o], last[o], corrected.part)) for o in first}
     good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}

@@ -56,6 +56,8 @@ class CorrectedModel:
         predict must have as ``simulated_fy``.
     moments : tuple of str
         Moments that were recorded and that the tire model gives.
+    as_filed : tuple of str
+        Those of the moments that effects do not change: they would make them worse.
     factors : dict of str to float
         Channel -> what repairs its sign and unit: true = factor times recorded.
     limits : dict of str to (low, high)
@@ -106,6 +108,7 @@ class CorrectedModel:
     reference: Reference = NO_REFERENCE
     stands_in: bool = False
     moments: tuple[str, ...] = ()
+    as_filed: tuple[str, ...] = ()
     factors: Mapping[str, float] = field(default_factory=dict)
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     question: Question | None = None
@@ -190,8 +193,9 @@ class CorrectedModel:
     def _simulated(self, data: Data, changes: Sequence[Change]) -> dict[str, Array]:
         """Return forces, N, and moments, N m, with effects added."""
         forces = simulate(data, changes)
-        if self.moments:
-            forces |= simulate_moments(data, changes, self.moments)
+        moved = tuple(name for name in self.moments if name not in self.as_filed)
+        for names, added in ((moved, changes), (self.as_filed, ())):
+            forces |= simulate_moments(data, added, names) if names else {}
         return forces
 
     def _of_unknown_phase(self, data: Data) -> list[str]:

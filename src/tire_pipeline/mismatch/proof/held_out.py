@@ -93,6 +93,11 @@ def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]
     return out
 
 
+def made_worse(moments: Mapping[str, OutputFit]) -> dict[str, OutputFit]:
+    """Return the moments whose error grows with what was found, with 95% certainty."""
+    return {o: f for o, f in moments.items() if f.rms_after_low > f.rms_before}
+
+
 def recorded_moments(data: Data) -> tuple[str, ...]:
     """Moments that are recorded without holes and that the model gives."""
     names = [n for n in MOMENT_CHANNELS if n in data.channels and bool(np.isfinite(data.channels[n]).all())]

@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
-from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
+from tire_pipeline.mismatch.proof.held_out import made_worse, prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
@@ -120,7 +120,11 @@ def assembled(it: Explained) -> MismatchReport:
     put_in = allowed.fit
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    proved = {**prove(inside, allowed.left, noise, allowed.part), **prove_moments(inside, allowed.part)}
+    moments = prove_moments(inside, allowed.part)
+    spared = made_worse(moments)
+    model = replace(model, as_filed=tuple(spared))
+    as_filed = {o: f for o, f in prove_moments(inside, 0.0).items() if o in spared}
+    proved = {**prove(inside, allowed.left, noise, allowed.part), **moments, **as_filed}
     spoiled = any(finding.bad is not None for finding in prepared.findings)
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
@@ -139,7 +143,7 @@ def assembled(it: Explained) -> MismatchReport:
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
         on_several(effects if model.instead else []),
-        on_moments(fit),
+        on_moments(spared),
         on_expected([n for n in _unseen(it, effects) if changed_by_itself(together, n)]),
         on_changed_together(together),
     )

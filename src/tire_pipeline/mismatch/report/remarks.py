@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.report.contents import EffectReport
@@ -42,18 +42,23 @@ def on_several(effects: Sequence[EffectReport]) -> str:
     )
 
 
-def on_moments(fit: Mapping[str, OutputFit]) -> str:
-    """Say which moments the corrected model predicts worse, with 95% certainty: forces alone are fitted."""
+def on_moments(spared: Mapping[str, OutputFit]) -> str:
+    """Say which moments the corrected model leaves as they were: forces alone are fitted.
+
+    Parameters
+    ----------
+    spared : mapping of str to OutputFit
+        The errors that they would have with what was found.
+    """
     worse = [
         f"{o.capitalize()} {newtons(f.rms_before)} N m before, {newtons(f.rms_after)} N m after"
-        for o, f in fit.items()
-        if o not in TANGENTIAL_FORCES and f.rms_after_low > f.rms_before
+        for o, f in spared.items()
     ]
     if not worse:
         return ""
     return (
-        f"What was found is fitted to forces and makes moments worse (RMS error: {'; '.join(worse)}): take "
-        "these from the model as it was."
+        f"What was found is fitted to forces and would make moments worse (RMS error: {'; '.join(worse)}): "
+        "the corrected model leaves these as they were."
     )
 
 
