@@ -11,7 +11,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, State
 from tire_pipeline.mismatch.effects.context import Context
 
-__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register", "same_family"]
+__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register", "same_family", "told_by"]
 
 GROUP = "tire_pipeline.effects"
 """Entry point under which an installed package offers effects of its own."""
@@ -52,6 +52,17 @@ def same_family(one: str, other: str) -> bool:
         Names of effects.
     """
     return catalogue()[one].family == catalogue()[other].family != ""
+
+
+def told_by(one: str, other: str) -> str:
+    """Return the channel that has to vary to tell two effects apart, or nothing if it is not one channel.
+
+    Parameters
+    ----------
+    one, other : str
+        Names of effects.
+    """
+    return catalogue()[one].told_by.get(other, "") or catalogue()[other].told_by.get(one, "")
 
 
 def register(effect: Effect) -> None:

@@ -48,6 +48,10 @@ class OfModel(Protocol):
         """Whether the recording stays at another pressure than the file's."""
 
     @property
+    def off_camber(self) -> bool:
+        """Whether the camber stays at one that is not zero and not within the file's range."""
+
+    @property
     def speed_excess(self) -> Array:
         """``(v - v0) / v0``, v0 the speed at which the model is right."""
 

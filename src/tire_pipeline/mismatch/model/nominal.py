@@ -157,6 +157,17 @@ class NominalConditions:
         pressure = self.recording.channels["pressure"]
         return bool(abs(np.median(pressure) - self.pressure_of_file) > least_spread("pressure", pressure))
 
+    @property
+    def off_camber(self) -> bool:
+        """Whether the camber stays at one that is not zero, and that the file does not say it holds for."""
+        recording = self.recording
+        if not recording.has("camber") or recording.varies("camber"):
+            return False
+        camber = recording.channels["camber"]
+        held = float(np.median(camber))
+        *_, low, high = self.tire.ranges.get("camber", (np.inf, -np.inf))
+        return abs(held) > least_spread("camber", camber) and not low <= held <= high
+
     @cached_property
     def pressure(self) -> float:
         """Pressure at which the model is right, Pa.

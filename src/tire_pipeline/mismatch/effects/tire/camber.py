@@ -44,12 +44,20 @@ class Camber(Effect):
         "slip_angle_offset": "an offset does not change sign with camber",
         "plysteer_conicity": "conicity does not change with camber",
     }
+    told_by = dict.fromkeys(("camber_offset", "slip_angle_offset", "plysteer_conicity"), "camber")
     experiment = "record the same slip sweep at camber of both signs and at zero"
     order = 40
 
+    def absent(self, data: Context) -> str | None:
+        """Ask for a camber that varies, or that stays at another one than the file was fitted at."""
+        return None if data.nominal.off_camber else super().absent(data)
+
     def expected(self, data: Context) -> bool:
-        """The file knows no camber: every tire answers to it (Pacejka, 3rd ed., 4.3.1)."""
-        return not data.nominal.knows_camber
+        """The file knows no camber: every tire answers to one that varies (Pacejka, 3rd ed., 4.3.1).
+
+        Where the camber stays the same, the file may have been fitted at it.
+        """
+        return not data.nominal.knows_camber and data.varies("camber")
 
     def same_fault(self, data: Context) -> str:
         """A model that answers to camber answers to a channel with another gain."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.effects import catalogue, same_family
+from tire_pipeline.mismatch.effects import same_family, told_by
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     Hypothesis,
     hypotheses,
@@ -222,29 +222,27 @@ def _in_place(names: Names, best: Names, name: str) -> str | None:
 
 
 def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[Names]:
-    """Return the sets with an effect of the same family in place of one, if they fit as well at their best.
+    """Return the sets with a like effect in place of one, if they fit as well at their best.
 
-    Effects of one family look alike. An effect with more parameters, or with wider priors, has less evidence
-    even if it fits as well: that is what was expected of it, not what the recording says. So a wear is not
-    told from a heat that nobody measured, whose lag may be anything.
+    Effects of one family look alike, and those that a channel tells apart which does not vary. An effect with
+    more parameters, or with wider priors, has less evidence even if it fits as well: that is what was
+    expected of it, not what the recording says. So a wear is not told from a heat that nobody measured, whose
+    lag may be anything.
     """
     whole = next((each for each in case.sets if each.names == best), case.sets[0])
     close = set()
     for each in case.sets:
         for name in best:
             other = _in_place(each.names, best, name)
-            if other is None or not same_family(name, other):
+            if other is None:
                 continue
-            beside = _told_by(name, other) in case.unknown.steady
+            beside = told_by(name, other) in case.unknown.steady
+            if not beside and not same_family(name, other):
+                continue
             fits = (_best_fit(likelihood, one, beside_unnamed=beside) for one in (each, whole))
             if next(fits) > next(fits) + np.log(OPEN):
                 close.add(each.names)
     return frozenset(close)
-
-
-def _told_by(one: str, other: str) -> str:
-    """Return the channel that has to vary to tell two effects apart, or nothing if it is not one channel."""
-    return catalogue()[one].told_by.get(other, "") or catalogue()[other].told_by.get(one, "")
 
 
 def _best_fit(likelihood: Likelihood, each: OfSet, *, beside_unnamed: bool) -> float:

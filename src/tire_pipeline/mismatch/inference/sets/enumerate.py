@@ -10,7 +10,7 @@ from itertools import combinations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import make_background
-from tire_pipeline.mismatch.effects import same_family
+from tire_pipeline.mismatch.effects import same_family, told_by
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, plain_evidence
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
@@ -164,7 +164,7 @@ def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> 
 
 
 def _swapped(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
-    """Return the likeliest pair and triple with an effect of the same family in place of one of them.
+    """Return the likeliest pair and triple with a like effect in place of one of them.
 
     Without these an effect is not told from what looks like it beside two others, but taken for it.
     """
@@ -175,7 +175,8 @@ def _swapped(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> 
         for name in best:
             others = set(best) - {name}
             for other in found.kept:
-                if other not in best and same_family(name, other):
+                like = same_family(name, other) or told_by(name, other) in likelihood.unknown.steady
+                if other not in best and like:
                     out.append(tuple(sorted((*others, other))))
     return out
 
