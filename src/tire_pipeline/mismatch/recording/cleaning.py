@@ -68,6 +68,9 @@ def clean(
 ) -> tuple[dict[str, Array], list[Cleaning]]:
     """Smooth each input channel whose fluctuation the forces do not follow.
 
+    Differences from sample to sample tell noise from motion, and see nothing of what is slower: where a sweep
+    is fast for its sampling, a window flattens it. So the whole error must not grow either.
+
     Parameters
     ----------
     tire : TireModel
@@ -96,7 +99,7 @@ def clean(
         trial = {**now, name: smooth}
         there = _forces(tire, trial)
         felt, evidence = _judge(forces, there, recorded, start)
-        smoothed = evidence > _EVIDENCE_TO_SMOOTH
+        smoothed = evidence > _EVIDENCE_TO_SMOOTH and _left(there, recorded) < _left(forces, recorded)
         done.append(Cleaning(name, smoothed, rms(taken), felt, evidence))
         if smoothed:
             now, forces = trial, there
@@ -124,6 +127,11 @@ def _judge(
         energy += own / variance
         evidence += 0.5 * own * (1.0 - 2.0 * share) / variance
     return (product / energy if energy > 1.0 else float("nan")), evidence
+
+
+def _left(forces: Mapping[str, Array], recorded: Mapping[str, Array]) -> float:
+    """Return the squared error of a model, over the squared forces."""
+    return sum((rms(f - forces[o]) / max(rms(f), 1e-300)) ** 2 for o, f in recorded.items())
 
 
 def _forces(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
