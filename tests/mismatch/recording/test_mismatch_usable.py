@@ -1,6 +1,7 @@
 """Before any explanation: whether a recording carries an answer."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from worthless_slip import AXLE, RUINS, free_drive, without_slip
 
@@ -99,3 +100,22 @@ def test_a_note_counts_in_the_singular_where_there_is_one(tire, record, rows, sa
     run = record()
     run.loc[rows, "fy"] = np.nan
     assert any(note.startswith(said) for note in prepare(tire, run).notes)
+
+
+def test_a_force_that_the_file_has_nothing_of_is_left_out_by_name(tire, braked):
+    """A cornering file beside a brake test: "look at how slip ratio was measured", and nothing explained."""
+    rng = np.random.default_rng(4)
+    n = 600
+    at = {
+        "slip_ratio": 0.2 * np.sin(np.linspace(0.0, 40.0, n)),
+        "slip_angle": np.repeat([0.05, -0.05, 0.1], n // 3),
+        "normal_load": np.tile(np.repeat([2000.0, 4000.0], n // 6), 3),
+    }
+    forces = braked.forces(**at)
+    recording = pd.DataFrame({**at, "fx": forces.fx, "fy": forces.fy + rng.normal(0.0, 20.0, n)})
+    prepared = prepare(tire, recording)
+    assert set(prepared.data.outputs) == {"fy"}
+    assert any("the file has no coefficients of Fx" in note for note in prepared.notes)
+    alone = prepare(tire, recording.drop(columns="fy"))
+    assert alone.stopped == "unusable"
+    assert "no coefficients of Fx" in alone.question.why

@@ -352,3 +352,13 @@ def test_what_may_be_a_fault_or_the_tire_is_called_neither(name, alternatives, c
 def test_a_moment_that_the_correction_makes_worse_is_said(low, worse):
     told = on_moments(made_worse({"mz": OutputFit(1.0, 10.0, 15.0, low, 18.0)}))
     assert ("Mz 10 N m before, 15 N m after" in told) is worse
+
+
+def test_the_place_and_the_error_are_of_one_force():
+    """Fx was off most, and only Fy was corrected: "Fx is lower; with that corrected, the error of Fy falls"."""
+    fit = {**FIT, "fx": OutputFit(40.0, 400.0, 400.0, 390.0, 410.0)}
+    other = replace(PLACE, output="fx", axis="slip_ratio", mean=-900.0)
+    told = head("explained", [EFFECT], fit, [other, PLACE], NONE, "")
+    assert "Fy" in told.spot
+    assert "Fx" not in told.spot
+    assert "RMS error of Fy" in told.size

@@ -12,7 +12,7 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, largest, moves
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, DOES_NOTHING, SMALL, largest, moves
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
@@ -51,6 +51,8 @@ class Drive:
         ``share`` with the slip held at its mean.
     varies : bool
         Whether the slip is recorded and moves.
+    known : bool
+        Whether the model has anything of the force: one that was fitted to cornering alone has no Fx.
     """
 
     output: str
@@ -61,6 +63,7 @@ class Drive:
     gain: float
     still: float
     varies: bool
+    known: bool = True
 
     @property
     def works(self) -> bool:
@@ -106,6 +109,7 @@ def drives(tire: Any, arrays: Mapping[str, Array], time: Array | None) -> list[D
                 *_share(recorded, model[output], arrays, time),
                 _share(recorded, still[output], arrays, time)[0],
                 varies,
+                bool(np.ptp(model[output]) > DOES_NOTHING * np.ptp(recorded)),
             )
         )
     return out
@@ -165,8 +169,16 @@ def judge(
     drives it: friction or a gain is far off then, which is something to explain.
     """
     leave_out_still_slip(tire, arrays, time, notes)
-    found = drives(tire, arrays, time)
-    counted = judged(found)
+    counted = judged(drives(tire, arrays, time))
+    unknown = [d for d in counted if d.varies and not d.known]
+    if unknown:
+        why = _no_coefficients(unknown)
+        for d in unknown:
+            del arrays[d.output]
+        counted = judged(drives(tire, arrays, time))
+        if not counted:
+            return _unusable(why, "take a file that was fitted to that, too, or fit one (tire fit)"), []
+        notes.append(f"left out: {why}")
     if not any(d.works for d in counted):
         worst = max(counted, key=lambda d: d.size)
         return _unusable(described(worst), look_at(worst, arrays)), []
@@ -249,6 +261,12 @@ def _stands(arrays: Mapping[str, Array], name: str) -> bool:
     """Whether a slip is recorded, does not move, and is not zero."""
     least = ABSOLUTE_SPREAD[name]
     return name in arrays and not moves(arrays[name], least) and abs(float(np.mean(arrays[name]))) > least
+
+
+def _no_coefficients(unknown: list[Drive]) -> str:
+    """Return in words that the model has nothing of some forces."""
+    names = " and ".join(d.output.capitalize() for d in unknown)
+    return f"the file has no coefficients of {names}, or they are zero (tire show lists what it has)"
 
 
 def described(d: Drive) -> str:

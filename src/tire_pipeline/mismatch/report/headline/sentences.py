@@ -16,7 +16,13 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.headline.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.headline.spots import Ranges, on_placeless, spot_of, stretches_of
+from tire_pipeline.mismatch.report.headline.spots import (
+    Ranges,
+    corrected_most,
+    on_placeless,
+    spot_of,
+    stretches_of,
+)
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -308,7 +314,8 @@ def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
         return ""
     lead = "with that corrected"
     if any(np.isfinite(e.share) for e in effects):
-        o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
+        o = corrected_most(fit)
+        f = fit[o]
         goes = "falls" if f.rms_after < f.rms_before else "goes"
         return (
             f"{lead}, the RMS error of {o.capitalize()} over all held-out sweeps {goes} from "

@@ -53,10 +53,17 @@ def spot_of(
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
     if not located or (exact and not remainder.significant):
         return ""
+    if any(np.isfinite(e.share) for e in effects) and fit:  # the place and the error are of one force
+        located = [f for f in located if f.output == corrected_most(fit)] or located
     throughout = max(located, key=lambda f: abs(f.mean)).output in even
     own = located if throughout else _of_the_effects(effects, located, ranges)
     both = _to_both_sides(effects, fit, located, ranges)
     return both or (_where(own, ranges, even) if own else _where_the_effects_are(effects, ranges))
+
+
+def corrected_most(fit: Mapping[str, OutputFit]) -> str:
+    """Return the force of which most of the squared error goes."""
+    return max(fit, key=lambda o: fit[o].rms_before ** 2 - fit[o].rms_after ** 2)
 
 
 def _of_the_effects(
