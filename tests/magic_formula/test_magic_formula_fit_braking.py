@@ -42,3 +42,14 @@ def test_a_slip_angle_that_was_not_swept_is_the_reason_of_a_poor_side_force():
     with pytest.warns(PoorFitWarning, match="slip_angle was not swept"):
         fit = fit_magic_formula(brake_sweeps(0.0), starts=2)
     assert "fx" not in fit.poor
+
+
+def test_a_moment_without_a_force_that_it_contains_says_which():
+    """It was "a channel that does not belong (another wheel, another run, or a shift in time)"."""
+    rng = np.random.default_rng(6)
+    parts = [brake_sweeps(held) for held in (-0.1, -0.05, 0.0, 0.05, 0.1)]
+    table = pd.concat(parts, ignore_index=True)
+    arm = 0.05 * table["fx"] - 0.02 * table["fy"]
+    table = table.assign(mz=arm + rng.normal(0.0, 1.0, len(table))).drop(columns="fx")
+    with pytest.warns(PoorFitWarning, match="fx was not recorded, and mz contains it"):
+        fit_magic_formula(table, starts=2)

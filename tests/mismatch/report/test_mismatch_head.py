@@ -355,7 +355,7 @@ def test_a_moment_that_the_correction_makes_worse_is_said(low, worse):
 
 
 def test_the_place_and_the_error_are_of_one_force():
-    """Fx is off most, and Fy alone is corrected: "Fx is lower; with that corrected, the error of Fy falls"."""
+    """Fx is off most, and Fy alone is corrected: "Fx is lower; with that corrected, Fy ..."."""
     fit = {**FIT, "fx": OutputFit(40.0, 400.0, 400.0, 390.0, 410.0)}
     other = replace(PLACE, output="fx", axis="slip_ratio", mean=-900.0)
     told = head("explained", [EFFECT], fit, [other, PLACE], NONE, "")

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_OF_SLIP, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
     BOUNDS,
     PURE_SLIP_ANGLE,
@@ -41,6 +41,7 @@ _OTHER_SIGN = 0.02
 """Share of slips of the other sign up to which a recording has one direction only."""
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
+_PURE_SLIP = {"fx": PURE_SLIP_RATIO, "fy": PURE_SLIP_ANGLE}
 _SLIP_BINS = 20
 _ROWS_OF_BIN = 5
 
@@ -121,7 +122,8 @@ def poor_outputs(
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or _signs(output, seen, start) or _strange(output, seen) or levels or _ELSE
+            reason = units or _signs(output, seen, start) or _without_force(output, points, forces)
+            reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
 
@@ -258,10 +260,25 @@ def _lost_sign(output: str, seen: _Measured, least: float) -> bool:
     return _explained(slip, size) > _FOLLOWS and float(np.corrcoef(slip, size)[0, 1]) > _FOLLOWS
 
 
+def _without_force(output: str, points: Mapping[str, np.ndarray], forces: Mapping[str, np.ndarray]) -> str:
+    """Return that a force is missing of which a moment is made, or nothing.
+
+    Mz has the trail times Fy, and an arm times Fx (Pacejka, 3rd ed., 4.3.2, SSZ); both forces come from the
+    model.
+    """
+    slip = {force: np.abs(points[name]) for name, force in FORCE_OF_SLIP.items()}
+    swept = {o: float(np.quantile(x, 0.95)) > _PURE_SLIP[o] for o, x in slip.items()}
+    lacking = [o for o in sorted(swept) if swept[o] and o not in forces]
+    if output in TANGENTIAL_FORCES or not lacking:
+        return ""
+    names = " and ".join(lacking)
+    return f"{names} was not recorded, and {output} contains it: record it, too, or leave out such rows."
+
+
 def _not_driven(output: str, seen: _Measured) -> str:
     """Return that the slip was not swept, or nothing: a side effect of what was swept is no tire's force."""
     name = SLIP_OF_FORCE.get(output, "slip_angle")
-    pure = PURE_SLIP_RATIO if name == "slip_ratio" else PURE_SLIP_ANGLE
+    pure = _PURE_SLIP["fx" if name == "slip_ratio" else "fy"]
     if not seen.slip.size or float(np.quantile(np.abs(seen.slip), 0.95)) > pure:
         return ""
     return (
