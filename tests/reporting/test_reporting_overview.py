@@ -102,6 +102,7 @@ def _report() -> SimpleNamespace:
         verdict="explained",
         stated_verdict="explained",
         summary="Wear is missing.",
+        notes=[],
         effects=[SimpleNamespace(name="wear", alternatives=(), kind="physics")],
         held_out=None,
         to_dict=dict,

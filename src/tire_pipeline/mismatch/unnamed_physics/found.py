@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, MEA
 
 Array = np.ndarray
 FORMAT = "unnamed physics 2"
-READ = ("unnamed physics 1", FORMAT)
+READABLE_FORMATS = ("unnamed physics 1", FORMAT)
 """Formats that are read: in the first one each range is of one symbol."""
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
@@ -144,8 +144,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
     try:
         if not isinstance(content, Mapping):
             raise ValueError("it is not a mapping")
-        if content.get("format") not in READ:
-            raise ValueError(f"its format is none of {', '.join(READ)}")
+        if content.get("format") not in READABLE_FORMATS:
+            raise ValueError(f"its format is none of {', '.join(READABLE_FORMATS)}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
         if not equations or set(equations) - set(TANGENTIAL_FORCES):
             raise ValueError("its equations are not of fx and fy")
