@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from collections.abc import Collection
 from functools import cache
 from importlib.metadata import entry_points
 
@@ -11,7 +12,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, State
 from tire_pipeline.mismatch.effects.context import Context
 
-__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register", "same_family", "told_by"]
+__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "look_alike", "register", "told_by"]
 
 GROUP = "tire_pipeline.effects"
 """Entry point under which an installed package offers effects of its own."""
@@ -43,17 +44,6 @@ def catalogue() -> dict[str, Effect]:
     return found
 
 
-def same_family(one: str, other: str) -> bool:
-    """Return whether two effects are of one family, and so look alike.
-
-    Parameters
-    ----------
-    one, other : str
-        Names of effects.
-    """
-    return catalogue()[one].family == catalogue()[other].family != ""
-
-
 def told_by(one: str, other: str) -> str:
     """Return the channel that has to vary to tell two effects apart, or nothing if it is not one channel.
 
@@ -63,6 +53,20 @@ def told_by(one: str, other: str) -> str:
         Names of effects.
     """
     return catalogue()[one].told_by.get(other, "") or catalogue()[other].told_by.get(one, "")
+
+
+def look_alike(one: str, other: str, steady: Collection[str]) -> bool:
+    """Return whether two effects are of one family, or only a channel tells them apart that does not vary.
+
+    Parameters
+    ----------
+    one, other : str
+        Names of effects.
+    steady : collection of str
+        Channels that do not vary.
+    """
+    family = catalogue()[one].family == catalogue()[other].family != ""
+    return family or told_by(one, other) in steady
 
 
 def register(effect: Effect) -> None:

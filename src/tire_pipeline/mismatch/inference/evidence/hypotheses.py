@@ -13,7 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Likelihood, Projected
+from tire_pipeline.mismatch.inference.evidence.likelihood import (
+    ColumnProducts,
+    Evidence,
+    Likelihood,
+    Projected,
+)
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
@@ -53,7 +58,7 @@ class Hypothesis:
         """Return the log evidence of the hypothesis, with the products of all columns of its set."""
         return self.evidence(likelihood, products).value + self.effects.spread
 
-    def evidence(self, likelihood: Likelihood, products: Projected) -> Evidence:
+    def evidence(self, likelihood: Likelihood, products: ColumnProducts | Projected) -> Evidence:
         """Return the evidence of the columns, with the products of all columns of the set."""
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)

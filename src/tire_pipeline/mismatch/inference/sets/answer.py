@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.effects import same_family, told_by
+from tire_pipeline.mismatch.effects import look_alike, told_by
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     Hypothesis,
     hypotheses,
@@ -229,20 +229,25 @@ def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset
     expected of it, not what the recording says. So a wear is not told from a heat that nobody measured, whose
     lag may be anything.
     """
-    whole = next((each for each in case.sets if each.names == best), case.sets[0])
-    close = set()
-    for each in case.sets:
-        for name in best:
-            other = _in_place(each.names, best, name)
-            if other is None:
-                continue
-            beside = told_by(name, other) in case.unknown.steady
-            if not beside and not same_family(name, other):
-                continue
-            fits = (_best_fit(likelihood, one, beside_unnamed=beside) for one in (each, whole))
-            if next(fits) > next(fits) + np.log(OPEN):
-                close.add(each.names)
-    return frozenset(close)
+    steady = case.unknown.steady
+    like = [
+        (each, told_by(name, other) in steady)
+        for each in case.sets
+        for name in best
+        if (other := _in_place(each.names, best, name)) is not None and look_alike(name, other, steady)
+    ]
+    if not like:
+        return frozenset()
+    whole = next(each for each in case.sets if each.names == best)
+    least = {
+        beside: _best_fit(likelihood, whole, beside_unnamed=beside) + np.log(OPEN)
+        for beside in {beside for _, beside in like}
+    }
+    return frozenset(
+        each.names
+        for each, beside in like
+        if _best_fit(likelihood, each, beside_unnamed=beside) > least[beside]
+    )
 
 
 def _best_fit(likelihood: Likelihood, each: OfSet, *, beside_unnamed: bool) -> float:
@@ -253,7 +258,7 @@ def _best_fit(likelihood: Likelihood, each: OfSet, *, beside_unnamed: bool) -> f
     its force fades with slip as a longer way does.
     """
     hypothesis, own = Hypothesis(each, wide=beside_unnamed), scales(each, likelihood.learnt)
-    found = hypothesis.evidence(likelihood, likelihood.projected(each.products))
+    found = hypothesis.evidence(likelihood, each.products)
     covariance = found.covariance[: own.size, : own.size] / own[:, None] / own[None, :]
     return found.value + each.spread - 0.5 * float(np.linalg.slogdet(covariance)[1])
 

@@ -3,16 +3,16 @@ and those that differ from the likeliest by an effect that looks alike."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import make_background
-from tire_pipeline.mismatch.effects import same_family, told_by
+from tire_pipeline.mismatch.effects import look_alike
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, plain_evidence
+from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, log_prior, plain_evidence
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet, RecordingProducts
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -69,19 +69,60 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     looked = screened_recording(analysis, sizes)
     products, found = looked.products, looked.found
     likelihood = looked.guess.counting(found.independent)
-    fits: dict[Names, OfSet] = {(): products.of_set([], [])}
+    fits = _Fits(products, likelihood)
+    fits.take((), products.of_set([], []))
     singles, pairs = sets_to_fit(found, likelihood.unknown.expected, beside)
     for name in singles:
-        choices = [fitted(products, likelihood, [form]) for form in found.forms[name]]
-        fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
-    for pair in pairs:
-        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair))
-    for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple))
-    for names in _swapped(likelihood, list(fits.values()), found):
-        if names not in fits:
-            fits[names] = fitted(products, likelihood, _from_singles(fits, names))
-    return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
+        for form in found.forms[name]:
+            fits.take((name,), fitted(products, likelihood, [form]))
+    for names in pairs:
+        fits.fit(names)
+    for names in _triples(fits, found):
+        fits.fit(names)
+    for names in _swapped(fits, found):
+        fits.fit(names)
+    return Enumerated(products, likelihood, _with_forms(products, fits))
+
+
+class _Fits:
+    """The sets that were fitted, and the log evidence of each, which is weighed once.
+
+    Parameters
+    ----------
+    products : RecordingProducts
+    likelihood : Likelihood
+    """
+
+    def __init__(self, products: RecordingProducts, likelihood: Likelihood) -> None:
+        self.products, self.likelihood = products, likelihood
+        self.sets: dict[Names, OfSet] = {}
+        self.evidence: dict[Names, float] = {}
+
+    def take(self, names: Names, each: OfSet) -> None:
+        """Keep a set, unless one of these effects is there that has as much evidence."""
+        evidence = plain_evidence(self.likelihood, each)
+        if names not in self.sets or evidence > self.evidence[names]:
+            self.sets[names], self.evidence[names] = each, evidence
+
+    def fit(self, names: Names) -> None:
+        """Fit a set of several effects, if it was not, from where their own fits have ended."""
+        if names not in self.sets:
+            self.take(names, fitted(self.products, self.likelihood, self._from_singles(names)))
+
+    def likeliest(self, count: int) -> Names:
+        """Return the likeliest set of so many effects, by its evidence and by what physics expects."""
+        names = [each for each in self.sets if len(each) == count]
+        case = OfCase(self.likelihood.unknown, tuple(self.sets[each] for each in names))
+        odds = log_prior(case, self.likelihood.learnt)[: len(names)]  # of the sets alone, which come first
+        mass = [self.evidence[each] + float(p) for each, p in zip(names, odds, strict=True)]
+        return names[int(np.argmax(mass))] if names else ()
+
+    def _from_singles(self, names: Names) -> list[Variant]:
+        """Return the forms of some effects, each where its own fit has ended."""
+        singles = [self.sets[(name,)] for name in names]
+        return [
+            Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, singles, strict=True)
+        ]
 
 
 @dataclass(frozen=True)
@@ -126,13 +167,11 @@ def sets_to_fit(
     return list(dict.fromkeys(singles)), list(dict.fromkeys(pairs))
 
 
-def _with_forms(
-    products: RecordingProducts, likelihood: Likelihood, fits: Mapping[Names, OfSet]
-) -> tuple[OfSet, ...]:
+def _with_forms(products: RecordingProducts, fits: _Fits) -> tuple[OfSet, ...]:
     """Return all sets, the empty one and the likeliest with unnamed forms beside them."""
-    order = sorted(fits, key=lambda names: -plain_evidence(likelihood, fits[names]))
+    order = sorted(fits.sets, key=lambda names: -fits.evidence[names])
     asked = {(), *order[:EFFECTS_KEPT]}
-    return tuple(products.with_forms(e) if names in asked else e for names, e in fits.items())
+    return tuple(products.with_forms(e) if names in asked else e for names, e in fits.sets.items())
 
 
 def _likeliest_pairs(found: Screened) -> list[Names]:
@@ -140,20 +179,11 @@ def _likeliest_pairs(found: Screened) -> list[Names]:
     return sorted(pairs, key=lambda pair: -found.evidence[pair])[:PAIRS]
 
 
-def _from_singles(fits: Mapping[Names, OfSet], names: Names) -> list[Variant]:
-    """Return the forms of some effects, each where its own fit has ended."""
-    singles = [fits[(name,)] for name in names]
-    return [
-        Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, singles, strict=True)
-    ]
-
-
-def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
+def _triples(fits: _Fits, found: Screened) -> list[Names]:
     """Return the likeliest pair with each effect that does best beside its members."""
-    pairs = [each for each in fits if len(each.names) == 2]
-    if not pairs:
+    first = fits.likeliest(2)
+    if not first:
         return []
-    first = _likeliest(likelihood, pairs).names
     others = [name for name in found.kept if name not in first]
 
     def beside(name: str) -> float:
@@ -163,31 +193,16 @@ def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> 
     return [tuple(sorted((*first, name))) for name in chosen]
 
 
-def _swapped(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
+def _swapped(fits: _Fits, found: Screened) -> list[Names]:
     """Return the likeliest pair and triple with a like effect in place of one of them.
 
     Without these an effect is not told from what looks like it beside two others, but taken for it.
     """
-    out: list[Names] = []
-    for count in (2, 3):
-        alike = [each for each in fits if len(each.names) == count]
-        best = _likeliest(likelihood, alike).names if alike else ()
-        for name in best:
-            others = set(best) - {name}
-            for other in found.kept:
-                like = same_family(name, other) or told_by(name, other) in likelihood.unknown.steady
-                if other not in best and like:
-                    out.append(tuple(sorted((*others, other))))
-    return out
-
-
-def _likeliest(likelihood: Likelihood, sets: Sequence[OfSet]) -> OfSet:
-    """Return the likeliest of some sets, by their evidence and by what physics expects."""
-
-    def mass(each: OfSet) -> float:
-        sure = len(likelihood.unknown.expected & set(each.names))
-        count, none = np.array([len(each.names) - sure]), np.array([0])
-        odds = likelihood.learnt.log_prior(count, np.array([sure]), unnamed=none, forms=none)
-        return plain_evidence(likelihood, each) + float(odds[0])
-
-    return max(sets, key=mass)
+    steady = fits.likelihood.unknown.steady
+    return [
+        tuple(sorted((*(set(best) - {name}), other)))
+        for best in (fits.likeliest(2), fits.likeliest(3))
+        for name in best
+        for other in found.kept
+        if other not in best and look_alike(name, other, steady)
+    ]
