@@ -42,6 +42,9 @@ SLIP_OF_FORCE = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}
 FORCE_OF_SLIP = {"slip_angle": "fy", "slip_ratio": "fx"}
 """The tangential force that each slip makes."""
 
+FORCES_OF_MOMENT = {"mx": ("fy",), "my": ("fx",), "mz": ("fx", "fy")}
+"""The tangential forces of which each moment is made (Pacejka, 3rd ed., 4.3.2: 4.E69, 4.E70, 4.E71)."""
+
 
 class ShownUnit(NamedTuple):
     """How a channel is written for readers: a value in SI times ``factor`` is in ``unit``.

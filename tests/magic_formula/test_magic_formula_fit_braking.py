@@ -53,3 +53,14 @@ def test_a_moment_without_a_force_that_it_contains_says_which():
     table = table.assign(mz=arm + rng.normal(0.0, 1.0, len(table))).drop(columns="fx")
     with pytest.warns(PoorFitWarning, match="fx was not recorded, and mz contains it"):
         fit_magic_formula(table, starts=2)
+
+
+def test_a_moment_is_not_said_to_contain_a_force_that_it_does_not():
+    """Mx is made of the load, camber and Fy: without Fx it is no worse."""
+    rng = np.random.default_rng(7)
+    table = pd.concat([brake_sweeps(held) for held in (-0.1, 0.0, 0.1)], ignore_index=True)
+    table = table.assign(mx=rng.normal(0.0, 50.0, len(table))).drop(columns="fx")
+    with pytest.warns(PoorFitWarning) as told:
+        fit = fit_magic_formula(table, starts=2)
+    assert "mx" in fit.poor
+    assert not any("fx was not recorded, and mx" in str(each.message) for each in told)

@@ -7,12 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_OF_SLIP, SLIP_OF_FORCE, TANGENTIAL_FORCES
-from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
-    BOUNDS,
-    PURE_SLIP_ANGLE,
-    PURE_SLIP_RATIO,
-)
+from tire_pipeline.channels import ANGLE_CHANNELS, FORCES_OF_MOMENT, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.pages.numbers_in_words import in_digits
@@ -41,7 +37,6 @@ _OTHER_SIGN = 0.02
 """Share of slips of the other sign up to which a recording has one direction only."""
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
-_PURE_SLIP = {"fx": PURE_SLIP_RATIO, "fy": PURE_SLIP_ANGLE}
 _SLIP_BINS = 20
 _ROWS_OF_BIN = 5
 
@@ -261,15 +256,10 @@ def _lost_sign(output: str, seen: _Measured, least: float) -> bool:
 
 
 def _without_force(output: str, points: Mapping[str, np.ndarray], forces: Mapping[str, np.ndarray]) -> str:
-    """Return that a force is missing of which a moment is made, or nothing.
-
-    Mz has the trail times Fy, and an arm times Fx (Pacejka, 3rd ed., 4.3.2, SSZ); both forces come from the
-    model.
-    """
-    slip = {force: np.abs(points[name]) for name, force in FORCE_OF_SLIP.items()}
-    swept = {o: float(np.quantile(x, 0.95)) > _PURE_SLIP[o] for o, x in slip.items()}
-    lacking = [o for o in sorted(swept) if swept[o] and o not in forces]
-    if output in TANGENTIAL_FORCES or not lacking:
+    """Return that a force is missing of which a moment is made, or nothing: it comes from the model then."""
+    lacking = [o for o in FORCES_OF_MOMENT.get(output, ()) if o not in forces]
+    lacking = [o for o in lacking if _swept(SLIP_OF_FORCE[o], points[SLIP_OF_FORCE[o]])]
+    if not lacking:
         return ""
     names = " and ".join(lacking)
     return f"{names} was not recorded, and {output} contains it: record it, too, or leave out such rows."
@@ -278,13 +268,17 @@ def _without_force(output: str, points: Mapping[str, np.ndarray], forces: Mappin
 def _not_driven(output: str, seen: _Measured) -> str:
     """Return that the slip was not swept, or nothing: a side effect of what was swept is no tire's force."""
     name = SLIP_OF_FORCE.get(output, "slip_angle")
-    pure = _PURE_SLIP["fx" if name == "slip_ratio" else "fy"]
-    if not seen.slip.size or float(np.quantile(np.abs(seen.slip), 0.95)) > pure:
+    if not seen.slip.size or _swept(name, seen.slip):
         return ""
     return (
         f"{name} was not swept; {output} is what ply steer, conicity, camber and the other slip make of it. "
         f"The file says nothing of {output}: record sweeps of {name}."
     )
+
+
+def _swept(name: str, slip: np.ndarray) -> bool:
+    """Whether a slip goes beyond what counts as none, but for odd rows."""
+    return float(np.quantile(np.abs(slip), 0.95)) > PURE_SLIP[name]
 
 
 def _strange(output: str, seen: _Measured) -> str:
@@ -308,8 +302,8 @@ def _strange(output: str, seen: _Measured) -> str:
         return f"a channel that does not belong; {output} hardly follows {name} {where}"
     if output not in TANGENTIAL_FORCES:
         return ""
-    if _no_friction(output, seen):
-        return _no_friction(output, seen)
+    if said := _no_friction(output, seen):
+        return said
     large = np.abs(seen.slip) >= np.median(np.abs(seen.slip))
     load, force = seen.load[large], np.abs(seen.force[large])
     differ = np.ptp(np.quantile(load, [0.02, 0.98])) > _LOADS_DIFFER * np.median(load)

@@ -11,6 +11,7 @@ import pandas as pd
 from tire_pipeline.channels import FORCE_OF_SLIP
 from tire_pipeline.magic_formula.fitting.setup.measured import bulk
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
+    PURE_SLIP,
     PURE_SLIP_ANGLE,
     PURE_SLIP_RATIO,
     Stage,
@@ -115,7 +116,7 @@ def stands_off_zero(name: str, points: Mapping[str, np.ndarray], which: np.ndarr
     """
     if not which.any():
         return False
-    within = PURE_SLIP_RATIO if name == "slip_ratio" else PURE_SLIP_ANGLE
+    within = PURE_SLIP[name]
     low, high = bulk(points[name][which])
     return min(abs(low), abs(high)) > within and high - low <= within
 

@@ -8,6 +8,8 @@ PURE_SLIP_RATIO = 0.02
 """Below this magnitude of slip ratio a point counts as pure lateral slip."""
 PURE_SLIP_ANGLE = 0.01
 """Below this magnitude of slip angle (rad) a point counts as pure longitudinal slip."""
+PURE_SLIP = {"slip_angle": PURE_SLIP_ANGLE, "slip_ratio": PURE_SLIP_RATIO}
+"""Slip -> magnitude up to which it counts as none."""
 
 BOUNDS: dict[str, tuple[float, float, float]] = {
     "PCY1": (1.0, 2.5, 1.35),
