@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.model.data import NO_REFERENCE, Data
 from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
-from tire_pipeline.mismatch.model.residual import partly, rms
+from tire_pipeline.mismatch.model.residual import error_over_forces, partly, rms
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
@@ -254,12 +254,9 @@ class CorrectedModel:
         if not (self.cleaned and self._changed and "time" in recording):
             return self
         plain = replace(self, cleaned={})
-        names = [o for o in self.outputs if o in recording]
-        left = [
-            sum(rms(recording[o] - frame[o]) ** 2 / max(rms(recording[o]) ** 2, 1e-300) for o in names)
-            for frame in (self.predict(recording), plain.predict(recording))
-        ]
-        return self if left[0] < left[1] else plain
+        recorded = {o: recording[o] for o in self.outputs if o in recording}
+        clean, raw = (error_over_forces(m.predict(recording), recorded) for m in (self, plain))
+        return self if clean < raw else plain
 
     def limited_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
         """Return the model with the limits of those forces that are predicted no worse with them.

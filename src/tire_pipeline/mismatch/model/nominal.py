@@ -151,22 +151,23 @@ class NominalConditions:
     @property
     def off_pressure(self) -> bool:
         """Whether the pressure stays at another one than that at which the file says that it is right."""
-        recording = self.recording
-        if not recording.has("pressure") or recording.varies("pressure") or self.pressure_of_file is None:
-            return False
-        pressure = self.recording.channels["pressure"]
-        return bool(abs(np.median(pressure) - self.pressure_of_file) > least_spread("pressure", pressure))
+        stated = self.pressure_of_file if self.recording.has("pressure") else None
+        return stated is not None and self._stays_off("pressure", stated)
 
     @property
     def off_camber(self) -> bool:
         """Whether the camber stays at one that is not zero, and that the file does not say it holds for."""
-        recording = self.recording
-        if not recording.has("camber") or recording.varies("camber"):
-            return False
-        camber = recording.channels["camber"]
-        held = float(np.median(camber))
         *_, low, high = self.tire.ranges.get("camber", (np.inf, -np.inf))
-        return abs(held) > least_spread("camber", camber) and not low <= held <= high
+        return self._stays_off("camber", 0.0) and not (
+            low <= float(np.median(self.recording.channels["camber"])) <= high
+        )
+
+    def _stays_off(self, channel: str, value: float) -> bool:
+        """Whether a channel is recorded and stays at another value than this one."""
+        if not self.recording.has(channel) or self.recording.varies(channel):
+            return False
+        x = self.recording.channels[channel]
+        return bool(abs(np.median(x) - value) > least_spread(channel, x))
 
     @cached_property
     def pressure(self) -> float:

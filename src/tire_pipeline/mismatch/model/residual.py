@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -40,6 +40,20 @@ def rms(x: ArrayLike) -> float:
     values = np.asarray(x, float)
     values = values[np.isfinite(values)]
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
+
+
+def error_over_forces(forces: Mapping[str, ArrayLike], recorded: Mapping[str, ArrayLike]) -> float:
+    """Return the squared error of some forces, each over the square of the recorded one.
+
+    Parameters
+    ----------
+    forces, recorded : mapping of array_like, shape (n,)
+        Output -> simulated, and recorded; all that is recorded counts.
+    """
+    return sum(
+        rms(np.asarray(x) - np.asarray(forces[o])) ** 2 / max(rms(x) ** 2, 1e-300)
+        for o, x in recorded.items()
+    )
 
 
 def root_ratio_interval(above: Array, below: Array) -> tuple[float, float]:

@@ -16,7 +16,7 @@ import numpy as np
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
 from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
-from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.residual import error_over_forces, rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
@@ -99,7 +99,8 @@ def clean(
         trial = {**now, name: smooth}
         there = _forces(tire, trial)
         felt, evidence = _judge(forces, there, recorded, start)
-        smoothed = evidence > _EVIDENCE_TO_SMOOTH and _left(there, recorded) < _left(forces, recorded)
+        shrinks = error_over_forces(there, recorded) < error_over_forces(forces, recorded)
+        smoothed = evidence > _EVIDENCE_TO_SMOOTH and shrinks
         done.append(Cleaning(name, smoothed, rms(taken), felt, evidence))
         if smoothed:
             now, forces = trial, there
@@ -127,11 +128,6 @@ def _judge(
         energy += own / variance
         evidence += 0.5 * own * (1.0 - 2.0 * share) / variance
     return (product / energy if energy > 1.0 else float("nan")), evidence
-
-
-def _left(forces: Mapping[str, Array], recorded: Mapping[str, Array]) -> float:
-    """Return the squared error of a model, over the squared forces."""
-    return sum((rms(f - forces[o]) / max(rms(f), 1e-300)) ** 2 for o, f in recorded.items())
 
 
 def _forces(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:

@@ -123,8 +123,9 @@ def assembled(it: Explained) -> MismatchReport:
     moments = prove_moments(inside, allowed.part)
     spared = made_worse(moments)
     model = replace(model, as_filed=tuple(spared))
-    as_filed = {o: f for o, f in prove_moments(inside, 0.0).items() if o in spared}
-    proved = {**prove(inside, allowed.left, noise, allowed.part), **moments, **as_filed}
+    if spared:
+        moments |= {o: f for o, f in prove_moments(inside, 0.0).items() if o in spared}
+    proved = {**prove(inside, allowed.left, noise, allowed.part), **moments}
     spoiled = any(finding.bad is not None for finding in prepared.findings)
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
