@@ -129,6 +129,15 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
     assert next_experiment(it.analysis, neither, plain).startswith("To tell the explanations apart, record ")
 
 
+def test_a_lag_in_distance_is_told_from_one_in_time_by_another_speed_only(tire, record):
+    """At the recorded speed each may have the size at which it does what the other one does."""
+    it = Explainer(without=all_but("time_delay", "relaxation_length")).weigh(tire, record(5, delay=0.06))
+    plain = CorrectedModel(tire, (), it.analysis.data.outputs, Reference(it.analysis.data.states.scales))
+    both = replace(it.answer, sets=((("relaxation_length", "time_delay"), 0.9),))
+    assert not it.analysis.data.varies("speed")
+    assert next_experiment(it.analysis, both, plain).endswith("at half the speed.")
+
+
 def test_a_choice_is_repeated_among_sets_with_mass_and_parts_of_the_named_one(softer):
     assert [each.names for each in softer.sets.with_mass({(): 1.0}, ()).sets] == [()]
     named = softer.answer.named.names

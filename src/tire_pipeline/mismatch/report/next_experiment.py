@@ -16,7 +16,7 @@ import scipy
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects import catalogue, told_by
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
@@ -34,10 +34,21 @@ _BETWEEN = 0.5
 
 @dataclass(frozen=True)
 class StandardSweep:
-    """One standard sweep: what it is, and its channels in SI."""
+    """One standard sweep.
+
+    Parameters
+    ----------
+    text : str
+        What it is.
+    frame : pandas.DataFrame
+        Its channels in SI.
+    changed : frozenset of str
+        Channels that are elsewhere than about the middle of what was recorded.
+    """
 
     text: str
     frame: pd.DataFrame
+    changed: frozenset[str]
 
 
 def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel) -> str:
@@ -88,7 +99,7 @@ def _sweeps(analysis: Analysis) -> Iterator[StandardSweep]:
 
     def sweep(text: str, wave: Array, **changed: float | Array) -> StandardSweep:
         channels = {"time": time, "slip_angle": top * wave, **middle, **changed}
-        return StandardSweep(text, pd.DataFrame(channels))
+        return StandardSweep(text, pd.DataFrame(channels), frozenset(changed))
 
     load = middle["normal_load"]
     rising = 0.5 * load * (1.0 + slow)
@@ -125,12 +136,32 @@ def _gain(
         return 0.0
     weights = np.array([p for _, p in rivals])
     weights = weights / weights.sum()
+    tells = _can_tell(sweep, rivals, analysis)
     apart = np.zeros((len(rivals), len(rivals)))
     for o in model.outputs:
         size = analysis.misfit * analysis.largest[o] + analysis.noise[o].floor
         forces = np.array([frame[o].to_numpy(float) for frame in predicted])
         apart += INDEPENDENT_STRETCHES * np.mean(((forces[:, None] - forces[None, :]) / size) ** 2, axis=2)
-    return _information(weights, apart)
+    return _information(weights, np.where(tells, apart, 0.0))
+
+
+def _can_tell(
+    sweep: StandardSweep, rivals: list[tuple[tuple[Change, ...], float]], analysis: Analysis
+) -> Array:
+    """Whether a sweep can tell each pair of rivals apart, shape (k, k).
+
+    Some effects only a channel tells apart. Where it did not vary, parameters as likely as these make the
+    two alike at its one value, and only another value tells.
+    """
+    names = [{name for name, _ in changes} for changes, _ in rivals]
+    needed = [[_told_by(a - b, b - a) for b in names] for a in names]
+    seen = sweep.changed | {channel for channel in analysis.data.present if analysis.data.varies(channel)}
+    return np.array([[channel == "" or channel in seen for channel in row] for row in needed])
+
+
+def _told_by(own: set[str], others: set[str]) -> str:
+    """The channel that tells two sets apart which differ in one effect."""
+    return told_by(*own, *others) if len(own) == len(others) == 1 else ""
 
 
 def _information(weights: Array, apart: Array) -> float:
