@@ -131,7 +131,7 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
 
 def test_a_lag_in_distance_is_told_from_one_in_time_by_another_speed_only(tire, record):
     """At the recorded speed each may have the size at which it does what the other one does."""
-    it = Explainer(without=all_but("time_delay", "relaxation_length")).weigh(tire, record(5, delay=0.06))
+    it = Explainer(without=all_but("time_delay", "relaxation_length")).weigh(tire, record(5, delay=0.15))
     plain = CorrectedModel(tire, (), it.analysis.data.outputs, Reference(it.analysis.data.states.scales))
     both = replace(it.answer, sets=((("relaxation_length", "time_delay"), 0.9),))
     assert not it.analysis.data.varies("speed")
