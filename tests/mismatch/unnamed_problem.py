@@ -7,7 +7,7 @@ import numpy as np
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues, table_from
-from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained
 
 NOMINAL = NominalValues(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
 

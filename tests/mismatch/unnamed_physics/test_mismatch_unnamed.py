@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.corrected.as_recorded import never_worse
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
-from tire_pipeline.mismatch.unnamed_physics.problem import by_condition
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import judged
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better

@@ -8,7 +8,7 @@ from unnamed_problem import by_memory, by_speed, problem
 
 from tire_pipeline.mismatch.unnamed_physics.found import from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
-from tire_pipeline.mismatch.unnamed_physics.problem import of_force
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import of_force
 from tire_pipeline.mismatch.unnamed_physics.search import find
 
 NOISE = 5.0

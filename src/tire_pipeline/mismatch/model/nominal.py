@@ -16,8 +16,9 @@ Array = np.ndarray
 OF_CAMBER = {
     "fx": frozenset(["PDX3", "RBX3"]),
     "fy": frozenset("PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBY4 RVY3".split()),
+    "mz": frozenset("QBZ4 QBZ5 QDZ3 QDZ4 QDZ8 QDZ9 QDZ10 QDZ11 QEZ5 QHZ3 QHZ4 SSZ3 SSZ4".split()),
 }
-"""Coefficients through which each force of a model answers to camber."""
+"""Coefficients through which each force of a model, and its aligning moment, answers to camber."""
 _PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.form_error import USUAL_FORM_ERROR
 from tire_pipeline.mismatch.unnamed_physics.library import Term
-from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import PRIOR_SIZE
 from tire_pipeline.mismatch.unnamed_physics.products import Reduced, definite
 
 Array = np.ndarray

@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.inference.analysis import inflation_of
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE, Unexplained
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import PRIOR_SIZE, Unexplained
 
 Array = np.ndarray
 FOLDS = 5

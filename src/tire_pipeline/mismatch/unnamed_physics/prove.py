@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
+from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray

@@ -21,6 +21,10 @@ _COEFFICIENTS_OF_FORCE = {
         "PCX1 PDX1 PDX2 PDX3 PEX1 PEX2 PEX3 PEX4 PKX1 PKX2 PKX3 PHX1 PHX2 PVX1 PVX2 RBX1 RBX2 RBX3 RCX1 "
         "REX1 REX2 RHX1"
     ).split(),
+    "mz": (
+        "QBZ1 QBZ2 QBZ3 QBZ4 QBZ5 QBZ9 QBZ10 QCZ1 QDZ1 QDZ2 QDZ3 QDZ4 QDZ6 QDZ7 QDZ8 QDZ9 QDZ10 QDZ11 QEZ1 "
+        "QEZ2 QEZ3 QEZ4 QEZ5 QHZ1 QHZ2 QHZ3 QHZ4 SSZ1 SSZ2 SSZ3 SSZ4"
+    ).split(),
 }
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
@@ -76,7 +80,7 @@ def shifts(data: Data, name: str, at: At) -> Array:
 def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     """Directions of the coefficients that keep the mirror symmetry, and those that break it, made smaller."""
     mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
-    image = jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
+    image = jacobian(data, name, mirrored) * (1.0 if name == "fx" else -1.0)
     kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
     least = 1e-2 * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]

@@ -1,0 +1,1 @@
+"""What the search for an equation is given: residuals of forces and of the aligning moment."""
