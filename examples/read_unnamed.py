@@ -57,7 +57,7 @@ def _value(text, table, clock):
 
 
 def _added(entry, table):
-    known = re.fullmatch("unnamed physics [12]", entry["format"]) and set(entry["equation"]) <= {"fx", "fy"}
+    known = re.fullmatch("unnamed physics [123]", entry["format"]) and {*entry["equation"]} <= {"fx", "fy", "mz"}
     size = len(next(iter(table.values()))) if known else sys.exit("no format")
     usual = median(steps := [b - a for a, b in pairwise(table.get("time", [math.nan] * size))])
     starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]

@@ -31,7 +31,7 @@ from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
 
 Array = np.ndarray
 
@@ -220,7 +220,8 @@ class CorrectedModel:
                 raise RecordingError(
                     f"{self.unnamed.title} needs the channel {channel}", where=channel, todo="add the column"
                 )
-        table, _ = table_of(data, self.changes, self.unnamed.nominal)
+        moments = (ALIGNING_MOMENT,) if self.unnamed.of_moment else ()
+        table, _ = table_of(data, self.changes, self.unnamed.nominal, moments)
         own = np.ones(data.size, bool)
         if self.unnamed.of_one_recording and data.wheel.known_way is not None:
             own = np.isfinite(data.wheel.known_way)

@@ -25,7 +25,7 @@ from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.held_out import made_worse, prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
-from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
@@ -37,6 +37,7 @@ from tire_pipeline.mismatch.report.changed_together import (
 )
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
+from tire_pipeline.mismatch.report.headline.of_moment import head_of_moment, on_moment
 from tire_pipeline.mismatch.report.headline.sentences import head, on_question, with_own_lag
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.remarks import (
@@ -50,16 +51,13 @@ from tire_pipeline.mismatch.report.remarks import (
     with_reasons,
 )
 from tire_pipeline.mismatch.report.result import MismatchReport
+from tire_pipeline.mismatch.report.unnamed_part import moment_error, only_moment, put_in_equations
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names, more_than_usual, unnamed_physics
+from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names
 from tire_pipeline.progress import under_way
 
 Array = np.ndarray
-_SOMETHING_LEFT = ("unexplained", "partly explained")
-_SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
-_AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
-_ENDS_HERE = "an equation of the clock or the way rolled ends with its recording, and settles nothing"
 _TO_DO = {
     "undecided": "Explain a recording with more channels, or one that the model was fitted to.",
     "unexplained": "Record the same sweeps again, and then with one channel changed at a time: what repeats "
@@ -128,10 +126,22 @@ def assembled(it: Explained) -> MismatchReport:
     proved = {**prove(inside, allowed.left, noise, allowed.part), **moments}
     spoiled = any(finding.bad is not None for finding in prepared.findings)
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
-    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
-    if unnamed.physics is not None and not effects:
+    moment = moment_error(analysis, fit)
+    unnamed, model = put_in_equations(
+        analysis,
+        verdict,
+        model,
+        it.recording,
+        moment,
+        named=bool(effects),
+        stopped=bool(prepared.stopped),
+        equation=equation,
+    )
+    fit = with_unnamed(fit, unnamed)
+    of_moment = moment is not None and verdict == "agrees" and only_moment(moment, unnamed)
+    if of_moment or (unnamed.physics is not None and not effects):
         verdict = "unexplained"  # a proved equation contradicts agreement, although it has no name
-    silent = prepared.stopped or verdict == "agrees"
+    silent = prepared.stopped or verdict == "agrees" or of_moment
     before = residual(data, [])
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
@@ -139,7 +149,12 @@ def assembled(it: Explained) -> MismatchReport:
     rivals = [each.names for each in answer.rivals] or answer.beside_unnamed
     added = bool(put_in.names or prepared.findings or not effects)
     together = changed_together(data, effects)
-    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
+    if moment is not None and of_moment:
+        told = head_of_moment(moment, fit, unnamed)
+        following = told.todo
+    else:
+        told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
+        told = told.beside(on_moment(moment, fit))
     told = with_own_lag(told, fit, data.followed_relaxation, before).beside(
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
@@ -303,34 +318,6 @@ def _model(
         rolled=it.rolled,
     )
     return model.limited_where_it_helps(it.recording).cleaned_where_it_helps(it.recording)
-
-
-def _unnamed(
-    it: Explained,
-    verdict: str,
-    named: bool,
-    model: CorrectedModel,
-    fit: dict[str, OutputFit],
-    equation: UnnamedReport | None,
-) -> tuple[UnnamedReport, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of the residual, and put it in if it holds on unseen sweeps.
-
-    The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could absorb
-    it, not that it is one. Sweeps that an equation has not seen tell the two apart.
-    """
-    plainly = verdict not in (*_SOMETHING_LEFT, "undecided")
-    if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
-        why = _SETTLE_FIRST if it.prepared.stopped else _AS_USUAL
-        return UnnamedReport(None, why, looked_for=False), model, fit
-    with under_way("looking for an equation of the residual"):
-        found = equation or unnamed_physics(it.analysis, plainly=plainly)
-    if verdict == "undecided" and found.physics is not None and found.physics.of_one_recording:
-        found = found.refused(_ENDS_HERE)
-    found, model = never_worse(found, model, it.recording)
-    fit = with_unnamed(fit, found)
-    if plainly and found.physics is None:
-        found = replace(found, alternatives=[])  # of an equation that nothing asked for
-    return found, model, fit
 
 
 def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:

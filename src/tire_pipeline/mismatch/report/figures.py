@@ -11,9 +11,9 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
-from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, TANGENTIAL_FORCES, axis_label
 from tire_pipeline.mismatch.report.contents import ReportContents
-from tire_pipeline.mismatch.report.words import short_equation
+from tire_pipeline.mismatch.report.words import short_equation, unit_of
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -207,7 +207,9 @@ def unnamed_curve(report: ReportContents) -> Markup | None:
         axes.plot(curve["x"], curve["left"], "o", ms=3.5, color=_BEFORE, label="unexplained residual")
         axes.plot(curve["x"], curve["fitted"], color=_AFTER, label="equation")
         axes.set_xlabel(short_equation(curve["label"]))
-        axes.set_ylabel(f"{curve['output'].capitalize()} along the force (N)")
+        output = curve["output"]
+        along = "along the force" if output in TANGENTIAL_FORCES else "along what it acts on"
+        axes.set_ylabel(f"{output.capitalize()} {along} ({unit_of(output)})")
         axes.legend(frameon=False)
     return svg(figure)
 

@@ -25,6 +25,7 @@ from tire_pipeline.mismatch.report.words import (
     interval,
     same_decimals,
     short_equation,
+    unit_of,
 )
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
@@ -50,6 +51,7 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
     style = page_style() + own
     environment.filters |= {"number": number, "percent": percent, "log_evidence": log_evidence}
     environment.filters |= {"condition": condition, "short_equation": short_equation, "to": range_of}
+    environment.filters["unit_of"] = unit_of
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
     seen, silent = _visible(report.visible)
     name = ", ".join(report.recordings) or "Simulation and recording"

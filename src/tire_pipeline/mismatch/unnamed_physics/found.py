@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import PLANE_FORCES
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
     LONGEST,
     EquationError,
@@ -16,12 +16,17 @@ from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
     evaluate,
     parse,
 )
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, MEANING, NominalValues
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import (
+    ALIGNING_MOMENT,
+    CHANNEL,
+    MEANING,
+    NominalValues,
+)
 
 Array = np.ndarray
-FORMAT = "unnamed physics 2"
-READABLE_FORMATS = ("unnamed physics 1", FORMAT)
-"""Formats that are read: in the first one each range is of one symbol."""
+FORMAT = "unnamed physics 3"
+READABLE_FORMATS = ("unnamed physics 1", "unnamed physics 2", FORMAT)
+"""Formats that are read: in the first one each range is of one symbol, and the second one has no moments."""
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
 since what turns with the way has another phase in another recording."""
@@ -29,7 +34,7 @@ since what turns with the way has another phase in another recording."""
 
 @dataclass(frozen=True)
 class CoefficientInterval:
-    """A coefficient of an equation and its 95% interval, in N over the unit of its term.
+    """A coefficient of an equation and its 95% interval, without a unit: terms are in N, those of mz in N m.
 
     Parameters
     ----------
@@ -48,7 +53,7 @@ class UnnamedPhysics:
     Parameters
     ----------
     equations : dict of str to str
-        Output -> what it adds, N, in the grammar of :mod:`.language.grammar`.
+        Output -> what it adds, N (``mz``: N m), in the grammar of :mod:`.language.grammar`.
     depends_on : tuple of str
     acts_on : str
     ranges : dict of str to (low, high)
@@ -68,7 +73,8 @@ class UnnamedPhysics:
     @property
     def title(self) -> str:
         """``unnamed: depends on ...``."""
-        return f"unnamed: depends on {', '.join(self.depends_on) or 'the force itself'}"
+        itself = "the moment itself" if self.of_moment else "the force itself"
+        return f"unnamed: depends on {', '.join(self.depends_on) or itself}"
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -77,6 +83,11 @@ class UnnamedPhysics:
         needed = {CHANNEL[s] for s in used | self._of_ranges if s in CHANNEL}
         needed |= {"time", "speed"} & ({"time", "speed"} if "way" in used or self._by_way else set())
         return tuple(sorted(needed | ({"time"} if self._remembers else set())))
+
+    @property
+    def of_moment(self) -> bool:
+        """Whether it needs or changes the model's aligning moment."""
+        return ALIGNING_MOMENT in self.equations
 
     @property
     def _of_ranges(self) -> frozenset[str]:
@@ -105,9 +116,20 @@ class UnnamedPhysics:
         return out
 
     def change(self, table: SymbolTable) -> dict[str, Array]:
-        """Return what it adds to each output, N."""
+        """Return what it adds to each output, N (``mz``: N m)."""
         weight = self.weight(table)
         return {o: evaluate(parse(text), table) * weight for o, text in self.equations.items()}
+
+    def joined(self, other: UnnamedPhysics) -> UnnamedPhysics:
+        """Return these equations and those of other outputs; they hold where both do."""
+        return replace(
+            self,
+            equations={**self.equations, **other.equations},
+            depends_on=tuple(sorted({*self.depends_on, *other.depends_on})),
+            acts_on=f"{self.acts_on}, {other.acts_on}",
+            ranges={**self.ranges, **other.ranges},
+            coefficients={**self.coefficients, **other.coefficients},
+        )
 
     def to_sidecar(self) -> dict[str, Any]:
         """Return what a reader needs, as JSON can hold it."""
@@ -116,7 +138,7 @@ class UnnamedPhysics:
             "format": FORMAT,
             "title": self.title,
             "equation": dict(self.equations),
-            "unit": "N, added to the force of the same name",
+            "unit": "N, or N m for mz, added to the force or moment of the same name",
             "symbols": {s: MEANING[s] for s in MEANING if s in used | self._of_ranges},
             "nominal": asdict(self.nominal),
             "coefficients": {o: [asdict(c) for c in each] for o, each in self.coefficients.items()},
@@ -147,8 +169,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         if content.get("format") not in READABLE_FORMATS:
             raise ValueError(f"its format is none of {', '.join(READABLE_FORMATS)}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
-        if not equations or set(equations) - set(TANGENTIAL_FORCES):
-            raise ValueError("its equations are not of fx and fy")
+        if not equations or set(equations) - set(PLANE_FORCES):
+            raise ValueError(f"its equations are of others than {', '.join(PLANE_FORCES)}")
         for text in equations.values():
             unknown = parse(text).symbols - set(MEANING)
             if unknown:
@@ -241,8 +263,8 @@ class UnnamedReport:
     alternatives : list of Alternative
         For the forces that the equation beside them was found for.
     unseen : dict of str to (before, after, ceiling)
-        Output -> RMS error on sweeps that neither choice nor fit has seen, N: without it, with it, and with a
-        Gaussian process in the same drivers.
+        Output -> RMS error on sweeps that neither choice nor fit has seen, N (``mz``: N m): without it, with
+        it, and with a Gaussian process in the same drivers.
     better, sweeps : int
         Sweeps that it makes better, of all.
     p_value : float
@@ -277,3 +299,28 @@ class UnnamedReport:
     def refused(self, why: str) -> UnnamedReport:
         """Return the same without its equation, and without what rests on that."""
         return replace(self, physics=None, why_not=why, independent_of={})
+
+    def joined(self, other: UnnamedReport) -> UnnamedReport:
+        """Return this report of some outputs with another one of others, if each has an equation.
+
+        The one that has an equation, if only one has; this one, if none has.
+        """
+        if self.physics is None or other.physics is None:
+            return self if other.physics is None else other
+        names = (*self.drivers, *other.drivers)
+        every = {d: max(each.drivers.get(d, 0.0) for each in (self, other)) for d in names}
+        neither = [c for c in self.independent_of if c in other.independent_of]
+        return replace(
+            self,
+            physics=self.physics.joined(other.physics),
+            drivers=dict(sorted(every.items(), key=lambda item: -item[1])),
+            independent_of={c: max(self.independent_of[c], other.independent_of[c]) for c in neither},
+            where="; ".join(dict.fromkeys((self.where, other.where))),
+            coefficients=[*self.coefficients, *other.coefficients],
+            evidence=self.evidence + other.evidence,
+            alternatives=[*self.alternatives, *other.alternatives],
+            unseen={**self.unseen, **other.unseen},
+            better=min(self.better, other.better),
+            p_value=max(self.p_value, other.p_value),
+            ideas=list(dict.fromkeys((*self.ideas, *other.ideas))),
+        )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
@@ -40,14 +40,21 @@ class Way:
         Output -> what the factors multiply there.
     odd : bool
         Whether the factors have to be odd in the mirror.
+    drivers : frozenset of str
+        What it depends on without any factor, beside the force that it is a part of.
+    alone : bool
+        Whether it is a term without any factor, too. For a force this is an effect of the catalogue.
     """
 
     name: str
     acts_on: str
     base: dict[str, str] = field(hash=False)
     odd: bool
+    drivers: frozenset[str] = frozenset()
+    alone: bool = False
 
 
+_BY_LOAD = frozenset({"normal_load"})
 WAYS_TO_ACT = (
     Way("force", "both forces, by a factor", {"fx": "fx", "fy": "fy"}, False),
     Way("fy", "the side force, by a factor", {"fy": "fy"}, False),
@@ -57,12 +64,17 @@ WAYS_TO_ACT = (
     Way("load", "the load", {"fx": "fx_load", "fy": "fy_load"}, False),
     Way("slip angle", "the slip angle", {"fy": "fy_slip"}, True),
     Way("slip ratio", "the slip ratio", {"fx": "fx_slip"}, False),
-    Way("added fy", "an added side force", {"fy": "F0*L"}, True),
-    Way("added fx", "an added longitudinal force", {"fx": "F0*L"}, False),
+    Way("added fy", "an added side force", {"fy": "F0*L"}, True, _BY_LOAD),
+    Way("added fx", "an added longitudinal force", {"fx": "F0*L"}, False, _BY_LOAD),
     Way("fy into fx", "the side force, turned into the longitudinal one", {"fx": "fy"}, True),
     Way("fx into fy", "the longitudinal force, turned into the side force", {"fy": "fx"}, True),
     Way("late fy", "the side force, late", {"fy": "F0"}, True),
     Way("late fx", "the longitudinal force, late", {"fx": "F0"}, False),
+    Way("mz", "the aligning moment, by a factor", {"mz": "mz"}, False, alone=True),
+    Way("trail", "the side force, with an arm", {"mz": "R0*fy"}, False, alone=True),
+    Way("arm", "the longitudinal force, with an arm", {"mz": "R0*fx"}, True, frozenset({"slip_ratio"}), True),
+    Way("added mz", "an added aligning moment", {"mz": "F0*R0*L"}, True, _BY_LOAD, True),
+    Way("offset mz", "a constant aligning moment", {"mz": "F0*R0"}, True, alone=True),
 )
 WAY = {way.name: way for way in WAYS_TO_ACT}
 
@@ -116,8 +128,7 @@ class Term:
     @cached_property
     def drivers(self) -> frozenset[str]:
         """What it depends on beside the force that it is a part of."""
-        own = frozenset({"normal_load"}) if self.way.startswith("added") else frozenset[str]()
-        return own.union(*(f.drivers for f in self.factors))
+        return WAY[self.way].drivers.union(*(f.drivers for f in self.factors))
 
     def without(self, factors: Iterable[Factor]) -> Term:
         """Return the same without some factors."""
@@ -176,6 +187,8 @@ _NOW = (
     _one("fy/F0", odd=True),
     _one("fx/F0"),
 )
+_OF_MOMENT = {"fy/F0": frozenset({"slip_angle"}), "fx/F0": frozenset({"slip_ratio"})}
+"""What a force stands for in the aligning moment, which it is no factor of by itself."""
 
 
 def now_factors(moves: frozenset[str]) -> list[Factor]:
@@ -247,6 +260,10 @@ def _of_way(way: Way, now: list[Factor], memory: list[Factor], outputs: tuple[st
     if not acts or (way.name == "force" and len(outputs) == 1):
         return
     late = way.name.startswith("late")
+    if way.alone:
+        yield Term(way.name, ())
+    if "mz" in way.base:
+        now = [replace(f, drivers=_OF_MOMENT.get(f.text, f.drivers)) for f in now]
     for factor in memory if late else [*now, *memory]:
         own_force = "fy" if "fy" in way.base else "fx"
         if late and f"memory of {own_force}" not in factor.drivers:
@@ -257,8 +274,8 @@ def _of_way(way: Way, now: list[Factor], memory: list[Factor], outputs: tuple[st
             continue
         if not factor.drivers and way.name not in ("slip angle", "slip ratio"):
             continue
-        if way.name == "slip angle" and factor.text == "fx/F0":
-            continue
+        if (way.name, factor.text) in (("slip angle", "fx/F0"), ("trail", "fx/F0")):
+            continue  # no slip angle comes from fx, and the other arm says the same
         yield Term(way.name, (factor,))
 
 

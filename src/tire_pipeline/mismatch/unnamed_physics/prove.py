@@ -181,9 +181,9 @@ def ceiling(columns: Columns, way_terms: list[Term]) -> dict[str, Array]:
     out = {o: np.zeros(problem.table.size) for o in problem.outputs}
     inputs = [columns.part(f.written) for t in way_terms for f in t.factors]
     live = [x for x in inputs if x is not None and np.std(x) > 0.0]
-    if not live:
+    if not (live or any(not t.factors for t in way_terms)):
         return out
-    x = np.column_stack([(c - c.mean()) / c.std() for c in live])
+    x = np.column_stack([np.zeros(problem.table.size), *((c - c.mean()) / c.std() for c in live)])
     rng = np.random.default_rng(0)
     centres = x[rng.choice(len(x), min(60, len(x)), replace=False)]
     near = np.exp(-0.5 * ((x[:, None, :] - centres[None]) ** 2).sum(axis=2))

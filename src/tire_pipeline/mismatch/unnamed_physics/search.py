@@ -11,6 +11,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORC
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.channels import CLASSES, one_sided, span, white_noise
+from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
@@ -35,6 +36,7 @@ from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problems.of_forces import USUAL_MISFIT, coarsely, problem_of
+from tire_pipeline.mismatch.unnamed_physics.problems.of_moments import of_moment
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained, by_condition, of_force
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
@@ -71,6 +73,32 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
     if plainly:
         return find(by_condition(problem))
     return find(problem, coarsely(problem, analysis))
+
+
+def unnamed_moment(
+    analysis: Analysis, changes: tuple[Change, ...], *, as_filed: bool, plainly: bool
+) -> UnnamedReport | None:
+    """Look for an equation of the aligning moment's error, and prove it.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        Of a recording with the moment.
+    changes : tuple of (name, parameters)
+        Effects in the corrected model.
+    as_filed : bool
+        Whether they leave the moment as it was.
+    plainly : bool
+        Ask for more, because the error might be the formula's usual misfit: the terms have to predict
+        operating conditions that were not seen.
+
+    Returns
+    -------
+    UnnamedReport or None
+        None where no more is left than noise and the misfit of a formula.
+    """
+    problem = of_moment(analysis, changes, as_filed=as_filed)
+    return None if problem is None else find(by_condition(problem) if plainly else problem)
 
 
 def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
@@ -299,7 +327,8 @@ def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, ob
     forces = forces_of(columns, choice, model.terms)
     output = max(forces, key=lambda o: float(np.mean(forces[o] ** 2)))
     term = choice.terms[model.terms[0]]
-    x = columns.part(term.factors[-1].written)
+    label = term.factors[-1].written if term.factors else WAY[term.way].base[output]
+    x = columns.part(label)
     base = columns.part(WAY[term.way].base[output]) if output in WAY[term.way].base else None
     if x is None or base is None:
         return {}
@@ -315,7 +344,7 @@ def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, ob
 
     return {
         "output": output,
-        "label": term.factors[-1].written,
+        "label": label,
         "x": mean(x),
         "left": mean(problem.rest[output] * sign),
         "fitted": mean(forces[output] * sign),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.report.words import newtons
+from tire_pipeline.mismatch.report.words import newtons, unit_of
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT
 
 
 def on_unnamed(found: UnnamedReport | None, verdict: str, rivals: Sequence[Sequence[str]] = ()) -> str:
@@ -23,6 +24,8 @@ def on_unnamed(found: UnnamedReport | None, verdict: str, rivals: Sequence[Seque
         return ""
     first = verdict in ("unexplained", "partly explained")
     what = "The unexplained residual" if first else "The remaining residual"
+    if set(found.physics.equations) == {ALIGNING_MOMENT}:
+        what = f"{what} of Mz"
     text = (
         f"{what} {_resembles(found, rivals)}. Of what was recorded, it depends most on "
         f"{_drivers(found)}. The corrected model contains an equation for it"
@@ -44,7 +47,7 @@ def of_equation(found: UnnamedReport | None) -> str:
     if found is None or found.physics is None:
         return ""
     errors = ", that of ".join(
-        f"{o.capitalize()} from {newtons(before)} N to {newtons(after)} N"
+        f"{o.capitalize()} from {newtons(before)} {unit_of(o)} to {newtons(after)} {unit_of(o)}"
         for o, (before, after, _) in _unseen(found).items()
     )
     return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
@@ -64,7 +67,8 @@ def _resembles(found: UnnamedReport, rivals: Sequence[Sequence[str]]) -> str:
 
 def _drivers(found: UnnamedReport) -> str:
     assert found.physics is not None
-    return ", ".join(found.physics.depends_on) or "the force itself"
+    itself = "the moment itself" if found.physics.of_moment else "the force itself"
+    return ", ".join(found.physics.depends_on) or itself
 
 
 def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float, float]]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import PLANE_FORCES, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import lengths_in_words
 from tire_pipeline.mismatch.model.residual import rms
@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.report.headline.spots import (
     spot_of,
     stretches_of,
 )
-from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
+from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place, unit_of
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 _RIVALS_LISTED = 3
@@ -75,9 +75,9 @@ def head(
     added : bool
         Whether anything of what is named is in the corrected model.
     """
-    fit = _forces(fit)
     if verdict == "agrees":
-        return _agreement(fit)
+        return _agreement({o: f for o, f in fit.items() if o in PLANE_FORCES})
+    fit = _forces(fit)
     ranges = ranges or {}
     if verdict == "undecided":
         causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
@@ -191,7 +191,7 @@ def _on_held_out(fit: HeldOutFit) -> str:
     """Return how the explained model predicts a recording that was held out, in a sentence."""
     parts = []
     for output, error in fit.errors.items():
-        unit = "N m" if output.startswith("m") else "N"
+        unit = unit_of(output)
         sizes = f"from {newtons(error.rms_before)} {unit} to {newtons(error.rms_after)} {unit}"
         if error.ratio_high < 1.0:
             parts.append(f"{output.capitalize()} falls {sizes}")
@@ -204,11 +204,12 @@ def _on_held_out(fit: HeldOutFit) -> str:
 
 def _beside_noise(fit: Mapping[str, OutputFit], *, after: bool = False) -> str:
     """RMS errors of all forces, before or after the correction, each beside its noise."""
-    return ", ".join(
-        f"{o.capitalize()} {newtons(f.rms_after if after else f.rms_before)} N "
-        f"(noise {newtons(f.noise_floor)} N)"
-        for o, f in fit.items()
-    )
+    said = []
+    for o, f in fit.items():
+        unit = unit_of(o)
+        noise = f" (noise {newtons(f.noise_floor)} {unit})" if np.isfinite(f.noise_floor) else ""
+        said.append(f"{o.capitalize()} {newtons(f.rms_after if after else f.rms_before)} {unit}{noise}")
+    return ", ".join(said)
 
 
 def _agreement(fit: Mapping[str, OutputFit]) -> Head:

@@ -10,7 +10,7 @@ import numpy as np
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable
 
@@ -31,6 +31,7 @@ MEANING = {
     "way": "way rolled since the first sample, m: the sum of |speed| times the time step",
     "fx": "longitudinal force of the tire model with the named effects in full, N",
     "fy": "lateral force of the same, N",
+    "mz": "aligning moment of the same, N m",
     "fx_slip": "d fx / d slip_ratio of the tire model as it came, N (central difference, step 0.002)",
     "fy_slip": "d fy / d slip_angle of the tire model as it came, N/rad (central difference, step 0.002 rad)",
     "fx_load": "normal_load d fx / d normal_load of the model as it came, N (central difference, step 1%)",
@@ -50,6 +51,7 @@ CHANNEL = {
     "t": "time",
 }
 """Symbol -> the channel that it is of."""
+ALIGNING_MOMENT = "mz"
 
 
 def held_within(symbol: str, x: Array) -> float:
@@ -69,7 +71,10 @@ class NominalValues:
 
 
 def table_of(
-    data: Data, changes: Sequence[Change], nominal: NominalValues | None = None
+    data: Data,
+    changes: Sequence[Change],
+    nominal: NominalValues | None = None,
+    moments: Sequence[str] = (),
 ) -> tuple[SymbolTable, NominalValues]:
     """Return the symbols at the samples of a recording.
 
@@ -80,9 +85,11 @@ def table_of(
         Effects that are in.
     nominal : NominalValues, optional
         As another recording was explained with; taken from this one if left out.
+    moments : sequence of str
+        Moments that an equation may use, too.
     """
     nominal = _nominal(data) if nominal is None else nominal
-    forces = simulate(data, changes)
+    forces = simulate(data, changes) | (simulate_moments(data, changes, moments) if moments else {})
     return table_from(data.channels, data.time, data.start, {**forces, **_slopes(data)}, nominal), nominal
 
 

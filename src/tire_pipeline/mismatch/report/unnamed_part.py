@@ -1,0 +1,141 @@
+"""What has no name in a report: equations of the forces and of the aligning moment, put into the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.mismatch.corrected.as_recorded import never_worse
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.model.channels import largest
+from tire_pipeline.mismatch.model.forces import simulate_moments
+from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT
+from tire_pipeline.mismatch.unnamed_physics.search import (
+    more_than_usual,
+    unnamed_moment,
+    unnamed_physics,
+)
+from tire_pipeline.progress import under_way
+
+SOMETHING_LEFT = ("unexplained", "partly explained")
+_SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
+_AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
+_ENDS_HERE = "an equation of the clock or the way rolled ends with its recording, and settles nothing"
+_FAR_OFF = 0.1
+"""Error of the aligning moment over its largest, above noise, that no fitted formula leaves: calspan 7%."""
+
+
+@dataclass(frozen=True)
+class MomentError:
+    """How far the model's aligning moment is off.
+
+    Parameters
+    ----------
+    before, mirrored : float
+        RMS error of the moment as it was recorded and with the other sign, N m.
+    largest : float
+        Largest moment of the model, N m.
+    noise : float
+        N m; NaN where it is not known.
+    """
+
+    before: float
+    mirrored: float
+    largest: float
+    noise: float
+
+    @property
+    def far_off(self) -> bool:
+        """Whether it is farther off than a fitted formula is."""
+        above = self.before**2 - np.nan_to_num(self.noise) ** 2
+        return bool(above > (_FAR_OFF * self.largest) ** 2)
+
+    @property
+    def other_sign(self) -> bool:
+        """Whether the other sign leaves less than half of the error."""
+        return self.far_off and 2.0 * self.mirrored < self.before
+
+
+def moment_error(analysis: Analysis, fit: Mapping[str, OutputFit]) -> MomentError | None:
+    """Return the error of the aligning moment, or None where it was not recorded or the model has none."""
+    if ALIGNING_MOMENT not in fit:
+        return None
+    data = analysis.data
+    simulated = simulate_moments(data, [], (ALIGNING_MOMENT,))[ALIGNING_MOMENT]
+    recorded = data.channels[ALIGNING_MOMENT]
+    own = fit[ALIGNING_MOMENT]
+    return MomentError(own.rms_before, rms(recorded + simulated), largest(simulated), own.noise_floor)
+
+
+def only_moment(moment: MomentError, found: UnnamedReport) -> bool:
+    """Whether the aligning moment differs and no force does.
+
+    Parameters
+    ----------
+    moment : MomentError
+    found : UnnamedReport
+        With the equations that are in the model.
+    """
+    equations = {} if found.physics is None else found.physics.equations
+    return moment.far_off if not equations else set(equations) == {ALIGNING_MOMENT}
+
+
+def put_in_equations(
+    analysis: Analysis,
+    verdict: str,
+    model: CorrectedModel,
+    recording: pd.DataFrame,
+    moment: MomentError | None,
+    *,
+    named: bool,
+    stopped: bool,
+    equation: UnnamedReport | None,
+) -> tuple[UnnamedReport, CorrectedModel]:
+    """Look for equations of what is left, and put in those that hold on unseen sweeps.
+
+    The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could absorb
+    it, not that it is one. Sweeps that an equation has not seen tell the two apart.
+
+    Parameters
+    ----------
+    analysis : Analysis
+    verdict : str
+        On the forces.
+    model : CorrectedModel
+        With the named effects.
+    recording : pandas.DataFrame
+        As it came.
+    moment : MomentError, optional
+    named, stopped : bool
+        Whether effects are named, and whether the recording has to be settled first.
+    equation : UnnamedReport, optional
+        One of the forces that was found instead of names.
+    """
+    if stopped:
+        return UnnamedReport(None, _SETTLE_FIRST, looked_for=False), model
+    plainly = verdict not in (*SOMETHING_LEFT, "undecided")
+    found = UnnamedReport(None, _AS_USUAL, looked_for=False)
+    with under_way("looking for an equation of the residual"):
+        if not (named and plainly and not more_than_usual(analysis)):
+            found = equation or unnamed_physics(analysis, plainly=plainly)
+        of_moment = None
+        if moment is not None and not moment.other_sign:
+            spared = ALIGNING_MOMENT in model.as_filed
+            of_moment = unnamed_moment(analysis, model.changes, as_filed=spared, plainly=not moment.far_off)
+    if verdict == "undecided" and found.physics is not None and found.physics.of_one_recording:
+        found = found.refused(_ENDS_HERE)
+    found, put_in = never_worse(found, model, recording)
+    if plainly and found.physics is None:
+        found = replace(found, alternatives=[])  # of an equation that nothing asked for
+    if of_moment is None or of_moment.physics is None:
+        return found, put_in
+    of_moment, with_moment = never_worse(of_moment, model, recording)
+    both = found.joined(of_moment)
+    return both, with_moment if found.physics is None else replace(put_in, unnamed=both.physics)
