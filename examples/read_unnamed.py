@@ -12,7 +12,7 @@ from statistics import median
 _TOKEN = re.compile(r"\d{1,99}(?:\.\d*)?(?:[eE](?:-\d|[+-]?)\d\d?)?|(?![iInN])[A-Za-z_]\w*|[-+*/^(),]", re.A)
 _PAIRS = {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}
 _PLAIN = {"abs": abs, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "exp": math.exp, "tanh": math.tanh}
-_MEMORIES = ("lag", "lagway", "play", "highest")
+_OF, _MEMORIES = ("fx", "fy", "mz"), ("lag", "lagway", "play", "highest")
 
 
 def _value(text, table, clock):
@@ -57,7 +57,7 @@ def _value(text, table, clock):
 
 
 def _added(entry, table):
-    known = re.fullmatch("unnamed physics [123]", entry["format"]) and {*entry["equation"]} <= {"fx", "fy", "mz"}
+    known = re.fullmatch("unnamed physics [123]", entry["format"]) and not {*entry["equation"]} - {*_OF}
     size = len(next(iter(table.values()))) if known else sys.exit("no format")
     usual = median(steps := [b - a for a, b in pairwise(table.get("time", [math.nan] * size))])
     starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]

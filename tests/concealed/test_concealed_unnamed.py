@@ -5,13 +5,14 @@ import subprocess
 from collections import Counter
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from tire_pipeline.concealed.open_world.tuning import MECHANISMS
 from tire_pipeline.concealed.open_world.world import Nominal
 from tire_pipeline.concealed.unnamed import __main__ as trial
 from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, draw_open_case
-from tire_pipeline.concealed.unnamed.judge import drivers_right, equation_right, removed
+from tire_pipeline.concealed.unnamed.judge import drivers_right, equation_right, moment_removed, removed
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues
 
@@ -77,6 +78,24 @@ def test_removed_is_a_share_of_what_the_oracle_removes():
     assert np.isnan(removed(before, before, {"fx": 4.0, "fy": 3.9})[0])
 
 
+def test_the_moment_is_judged_by_what_its_true_change_removes():
+    case = draw_open_case(5, (BY_NAME["offset drive"],), strength=6.0, rows=1500)
+    inputs = {c: case.held_out[c].to_numpy() for c in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    plain = case.tire.forces(**inputs, limits="ignore", outputs=("mz",)).mz
+    true = (case.held_with - case.held_without)[:, 2]
+    halfway = pd.DataFrame({"mz": plain + 0.5 * true})
+    assert moment_removed(case, pd.DataFrame({"mz": plain + true})) == (pytest.approx(1.0), False)
+    assert 0.5 < moment_removed(case, halfway)[0] < 1.0
+    assert moment_removed(case, pd.DataFrame({"mz": plain - true}))[1]
+    assert np.isnan(moment_removed(case, pd.DataFrame({"fy": plain}))[0])
+
+
+def test_the_true_equation_of_a_moment_counts():
+    found = report("0.04*R0*fx*(fy/F0)", output="mz")
+    assert equation_right(found, BY_NAME["offset drive"], Nominal())
+    assert not equation_right(report("0.04*R0*fx", output="mz"), BY_NAME["offset drive"], Nominal())
+
+
 def test_a_plan_of_400_has_every_mechanism_alone_in_twos_and_beside_named_causes():
     planned = [trial.planned("tuning", number) for number in range(400)]
     kinds = Counter((len(mechanisms), len(beside)) for mechanisms, beside in planned)
@@ -110,7 +129,7 @@ def test_a_run_goes_on_where_it_was_and_its_table_is_committed(tmp_path, monkeyp
         "in_grammar": True,
     }
     row |= {"driver_shared": False, "equation_right": False, "removed": 0.5, "worse": False}
-    row |= {"oracle_worse": False, "seconds": 1.0}
+    row |= {"oracle_worse": False, "removed_moment": None, "worse_moment": False, "seconds": 1.0}
     for name in trial.ON_RESIDUAL:
         row |= {f"removed_{name}": 0.1, f"worse_{name}": False}
     monkeypatch.setattr(trial, "run", lambda half, number: asked.append(number) or {"case": number, **row})

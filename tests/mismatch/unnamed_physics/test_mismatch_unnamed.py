@@ -51,7 +51,7 @@ def test_what_is_not_of_the_grammar_is_refused(text):
     "change",
     [
         {"equation": {"fy": "secret*fy"}},
-        {"equation": {"mz": "fy"}},
+        {"equation": {"mx": "fy"}},
         {"equation": {}},
         {"equation": "fy"},
         {"range": {"v": [2.0, 1.0]}},

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import MOMENT_CHANNELS, PLANE_FORCES, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, OpenCase
@@ -27,6 +27,7 @@ _DRAWN_POINTS = 200
 _CLOSE = 0.01
 _SHOWS = 0.2
 """Least share of the squared held-out error that the true change removes, so that it can be judged."""
+_ROUNDING = 1e-9
 _SLOW_CHANNELS = ("camber", "normal_load", "speed", "pressure", "tread_temperature", "time")
 
 
@@ -61,6 +62,27 @@ def same_channels(case: OpenCase) -> dict[str, str]:
     return {c: live[int(np.argmax(together[i]))] for i, c in enumerate(live)}
 
 
+def moment_removed(case: OpenCase, predicted: pd.DataFrame) -> tuple[float, bool]:
+    """Share of the aligning moment's squared error that goes, and whether it becomes worse.
+
+    Of what the true change removes; NaN where that removes too little to judge, or where no moment is
+    predicted.
+    """
+    [name] = set(PLANE_FORCES) & set(MOMENT_CHANNELS)
+    if name not in predicted:
+        return float("nan"), False
+    inputs = {c: case.held_out[c].to_numpy() for c in SLIP_AND_LOAD}
+    plain = case.tire.forces(**inputs, limits="ignore", outputs=(name,)).mz
+    change = (case.held_with - case.held_without)[:, PLANE_FORCES.index(name)]
+    recorded = case.held_out[name].to_numpy()
+    before, after, oracle = (
+        float(np.mean((recorded - x) ** 2)) for x in (plain, predicted[name].to_numpy(), plain + change)
+    )
+    possible = 1.0 - oracle / before
+    share = (1.0 - after / before) / possible if possible >= _SHOWS else float("nan")
+    return share, after > before * (1.0 + _ROUNDING)
+
+
 def drivers_right(found: Sequence[str], true: Sequence[str], same: Mapping[str, str]) -> tuple[bool, bool]:
     """Whether the drivers are the true ones and none more, and whether they share one with them."""
 
@@ -78,7 +100,7 @@ def equation_right(found: UnnamedReport, mechanism: Mechanism, nominal: Any) -> 
     true, ours = _points(rng, nominal, found)
     first = [found.physics.equations] if found.physics is not None else []
     for equations in [*first, *(a.equations for a in found.alternatives)][:3]:
-        acting = [f for f in TANGENTIAL_FORCES if f in mechanism.expressions]
+        acting = [f for f in PLANE_FORCES if f in mechanism.expressions]
         if acting and all(
             f in equations and _alike(equations[f], mechanism.expressions[f], true, ours) for f in acting
         ):
@@ -97,11 +119,10 @@ def _points(
     own = found.physics.nominal if found.physics is not None else nominal
     at = {"s": between(-0.15, 0.15), "k": between(-0.1, 0.1), "g": between(-0.05, 0.05)}
     load, speed, pressure, warm = between(0.4, 2.0), between(0.5, 1.7), between(0.8, 1.2), between(-1.0, 1.0)
-    forces = {f: between(-5000.0, 5000.0) for f in TANGENTIAL_FORCES}
+    forces = {f: between(-5000.0, 5000.0) for f in TANGENTIAL_FORCES} | {"mz": between(-100.0, 100.0)}
     true = {
         **at,
         **forces,
-        "mz": between(-100.0, 100.0),
         "L": load,
         "v": speed,
         "p": pressure,
@@ -146,7 +167,8 @@ def _alike(text: str, expression: str, true: Mapping[str, Any], ours: SymbolTabl
 def judged(case: OpenCase, mechanisms: Sequence[Mechanism], report: MismatchReport) -> dict[str, Any]:
     """One row of the table."""
     before, oracle = oracle_of(case)
-    after = squared(case, report.corrected.predict(case.held_out))
+    predicted = report.corrected.predict(case.held_out)
+    after, (of_moment, moment_worse) = squared(case, predicted), moment_removed(case, predicted)
     share, possible = removed(before, after, oracle)
     names = tuple(e.name for e in report.effects)
     allowed = {CATALOGUE_NAMES[n] for n in case.named}
@@ -173,8 +195,10 @@ def judged(case: OpenCase, mechanisms: Sequence[Mechanism], report: MismatchRepo
         and equation_right(found, mechanisms[0], case.nominal),
         "possible": possible,
         "removed": share,
-        "worse": any(after[f] > before[f] * (1.0 + 1e-9) for f in TANGENTIAL_FORCES),
-        "oracle_worse": any(oracle[f] > before[f] * (1.0 + 1e-9) for f in TANGENTIAL_FORCES),
+        "removed_moment": of_moment,
+        "worse": any(after[f] > before[f] * (1.0 + _ROUNDING) for f in TANGENTIAL_FORCES),
+        "worse_moment": moment_worse,
+        "oracle_worse": any(oracle[f] > before[f] * (1.0 + _ROUNDING) for f in TANGENTIAL_FORCES),
         "rms_before": float(np.sqrt(before["fy"])),
         "rms_after": float(np.sqrt(after["fy"])),
         "rms_oracle": float(np.sqrt(oracle["fy"])),

@@ -18,7 +18,8 @@ _CASE_COLUMNS = (
 def table(rows: Sequence[dict[str, Any]], head: str) -> str:
     """Return the scores and the cases as Markdown."""
     cases = pd.DataFrame(list(rows))
-    cases["removed"] = cases["removed"].astype(float)
+    for column in ("removed", "removed_moment"):
+        cases[column] = cases[column].astype(float)
     lines = [head, "", "| score | value | cases | goal |", "|---|---|---|---|"]
     for name, values, goal in _scores(cases):
         value = f"{values:.2f}" if np.isfinite(values) else "–"
@@ -41,6 +42,7 @@ def _scores(cases: pd.DataFrame) -> list[tuple[tuple[str, int], float, str]]:
     strong = judged[judged["strength"] >= _STRONG_MISFITS]
     grammar = judged[judged["in_grammar"]]
     in_grammar = cases[cases["in_grammar"]]
+    of_moment = cases[cases["removed_moment"].notna()]
     with_equation = cases[cases["equation"] != ""]
 
     def row(text: str, part: pd.DataFrame, values: Any, goal: str = "") -> tuple[tuple[str, int], float, str]:
@@ -62,6 +64,8 @@ def _scores(cases: pd.DataFrame) -> list[tuple[tuple[str, int], float, str]]:
         row(
             "the true equation among the first three", in_grammar, in_grammar["equation_right"].mean(), "0.5"
         ),
+        row("the aligning moment's error removed, median", of_moment, of_moment["removed_moment"].median()),
+        row("the aligning moment made worse", cases, cases["worse_moment"].mean(), "0"),
         row("a force made worse", cases, cases["worse"].mean(), "0"),
         row("a force made worse by the true change itself", cases, cases["oracle_worse"].mean()),
     ]

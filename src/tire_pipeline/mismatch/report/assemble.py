@@ -37,7 +37,7 @@ from tire_pipeline.mismatch.report.changed_together import (
 )
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
-from tire_pipeline.mismatch.report.headline.of_moment import head_of_moment, on_moment
+from tire_pipeline.mismatch.report.headline.moment_words import head_of_moment, on_moment
 from tire_pipeline.mismatch.report.headline.sentences import head, on_question, with_own_lag
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.remarks import (

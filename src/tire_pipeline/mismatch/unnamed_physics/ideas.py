@@ -33,10 +33,16 @@ def matching(drivers: frozenset[str], terms: Sequence[Term]) -> list[Idea]:
     ways = {t.way for t in terms}
     ranked = []
     for entry in wider_list():
-        closeness = max(len(drivers & set(d)) / len(drivers | set(d)) for d in entry["drivers"])
+        closeness = max(_closeness(drivers, set(d)) for d in entry["drivers"])
         acts = bool(ways & set(entry["ways"]))
         if closeness >= 0.5 and acts:
-            why = f"{entry['shape']}; it depends on {', '.join(sorted(drivers))}, too"
+            too = f"; it depends on {', '.join(sorted(drivers))}, too" if drivers else ""
+            why = f"{entry['shape']}{too}"
             ranked.append((closeness, Idea(entry["name"], why, entry["experiment"], entry["source"])))
     ranked.sort(key=lambda pair: -pair[0])
     return [idea for _, idea in ranked[:_MOST_IDEAS]]
+
+
+def _closeness(found: frozenset[str], listed: set[str]) -> float:
+    """Drivers that both have, over those that either has; 1 where neither has any."""
+    return len(found & listed) / len(found | listed) if found | listed else 1.0

@@ -35,8 +35,8 @@ from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problems.of_forces import USUAL_MISFIT, coarsely, problem_of
-from tire_pipeline.mismatch.unnamed_physics.problems.of_moments import of_moment
+from tire_pipeline.mismatch.unnamed_physics.problems.aligning_moment import of_moment
+from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import USUAL_MISFIT, coarsely, problem_of
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained, by_condition, of_force
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.model.channels import largest, white_noise
 from tire_pipeline.mismatch.model.forces import Change, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
-from tire_pipeline.mismatch.unnamed_physics.problems.of_forces import along_sweeps, what_moves
+from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import along_sweeps, what_moves
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained
 
 Array = np.ndarray
