@@ -204,6 +204,16 @@ def test_a_side_force_of_the_other_sign_is_the_reason_for_a_refusal(folder):
     assert said["distance"] is None
 
 
+def test_an_aligning_moment_of_the_other_sign_is_one_too(folder):
+    tire = read_tir("A/tire.tir")
+    write_tir(tire.replace(QDZ1=-abs(tire.coefficients["QDZ1"])), "A/mirrored.tir")
+    call = ("translate", "A/mirrored.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
+    said = json.loads(run(*call).stdout)
+    assert said["verdict"] == "refused"
+    assert said["reason"].startswith("Mz has the other sign than in ISO W")
+    assert "Mz has the other sign" in run("show", "A/mirrored.tir", "--no-page").stdout
+
+
 def test_without_a_translator_the_error_says_where_one_is_or_which_command_makes_one(folder):
     said = " ".join(run("translate", "A/tire.tir", code=2).stderr.split())
     assert "no translator is given -> make one from the files of several suppliers by `kedro run" in said

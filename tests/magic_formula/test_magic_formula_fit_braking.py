@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -64,3 +66,18 @@ def test_a_moment_is_not_said_to_contain_a_force_that_it_does_not():
         fit = fit_magic_formula(table, starts=2)
     assert "mx" in fit.poor
     assert not any("fx was not recorded, and mx" in str(each.message) for each in told)
+
+
+@pytest.mark.parametrize(("sign", "told"), [(1.0, False), (-1.0, True)], ids=["as it is", "mirrored"])
+def test_a_mirrored_aligning_moment_is_no_success(sign, told):
+    """It was fitted as well as the true one, by a negative pneumatic trail, without a word."""
+    tire, sweep = tire_52(), 0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 60))
+    loads = np.repeat([0.4, 0.7, 1.1, 1.5], sweep.size) * tire.value("FNOMIN")
+    table = pd.DataFrame({"slip_angle": np.tile(sweep, 4), "normal_load": loads})
+    forces = tire.forces(**{name: table[name].to_numpy() for name in table}, limits="ignore")
+    table = table.assign(fy=forces.fy, mz=sign * forces.mz)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", PoorFitWarning)
+        fit = fit_magic_formula(table, starts=2)
+    assert any("the pneumatic trail is negative" in str(each.message) for each in caught) is told
+    assert ("mz" in fit.poor) is told

@@ -272,3 +272,31 @@ def test_a_needed_column_that_is_mostly_empty_is_not_to_be_dropped(channel):
 def test_a_column_that_can_be_left_out_is_named():
     issue = check_recording(sparse(camber=20))[0]
     assert issue.advice == "drop camber, the emptiest column that can be left out (20 numbers)"
+
+
+def with_moment(trail, seed=3):
+    """Sweeps of slip angle at three loads, with an aligning moment of some trail, m."""
+    rng = np.random.default_rng(seed)
+    slip = 0.15 * np.sin(np.linspace(0.0, 12.0 * np.pi, 600))
+    load = np.repeat([2000.0, 3500.0, 5000.0], 200)
+    fy = -load * np.tanh(12.0 * slip)
+    mz = -trail * fy * np.exp(-np.abs(slip) / 0.06)
+    noise = rng.standard_normal((2, slip.size))
+    return pd.DataFrame(
+        {"slip_angle": slip, "normal_load": load, "fy": fy + 20.0 * noise[0], "mz": mz + noise[1]}
+    )
+
+
+def test_a_moment_that_turns_the_wheel_out_of_its_run_is_reported():
+    names = {issue.name for issue in check_recording(with_moment(-0.03))}
+    assert names == {"moment_of_other_sign"}
+
+
+@pytest.mark.parametrize("trail", [0.03, 0.0])
+def test_a_moment_with_a_trail_or_of_noise_is_not(trail):
+    assert check_recording(with_moment(trail)) == []
+
+
+def test_the_sign_of_a_moment_is_not_judged_by_brake_sweeps():
+    frame = with_moment(-0.03).assign(slip_ratio=-0.1)
+    assert check_recording(frame) == []

@@ -24,6 +24,7 @@ from tire_pipeline.recordings.conventions.plausible import (
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.spikes import said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
+from tire_pipeline.recordings.trail_sign import moment_of_other_sign
 from tire_pipeline.recordings.unit_jumps import unit_jumps
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
@@ -227,7 +228,8 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
             )
         issues += _spikes(str(column), values) if column in USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
-    return issues + _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
+    issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
+    return issues + moment_of_other_sign(frame)
 
 
 def _slip_not_measured(frame: pd.DataFrame) -> list[Issue]:

@@ -72,7 +72,9 @@ def odd_values(
 
 
 def unlike_iso(coefficients: Mapping[str, float]) -> list[str]:
-    """Return a sentence for each force that has the other sign than in ISO W axes, from its slip stiffness.
+    """Return a sentence for each output that has the other sign than in ISO W axes.
+
+    By the slip stiffness of a force, and by the pneumatic trail of the aligning moment.
 
     Parameters
     ----------
@@ -98,5 +100,11 @@ def unlike_iso(coefficients: Mapping[str, float]) -> list[str]:
         found.append(
             "Fx has the other sign than in ISO W, the axes of .tir files: a positive slip ratio gives a "
             f"negative Fx (PKX1 = {longitudinal:g}); export the file in ISO W"
+        )
+    trail = coefficients.get("QDZ1", 0.0)
+    if trail * coefficients.get("LTR", 1.0) < 0.0:
+        found.append(
+            "Mz has the other sign than in ISO W, the axes of .tir files: the pneumatic trail is negative "
+            f"(QDZ1 = {trail:g}), and Mz turns the wheel out of its run; export the file in ISO W"
         )
     return found

@@ -234,9 +234,10 @@ class VerdictRules:
 
 
 def _may_be_turned(rows: pd.DataFrame) -> np.ndarray:
-    """Rows that are worth a look at their signs, shape (n,): in ISO W both stiffnesses have the usual one."""
+    """Rows whose signs are worth a look, shape (n,): in ISO W stiffness and trail have the usual ones."""
     usual = np.sign(rows[["PKY1", "PKY2", "PKX1"]].to_numpy(dtype=float)) == (-1.0, 1.0, 1.0)
-    return np.asarray(~usual.all(axis=1))
+    turned = rows["QDZ1"].to_numpy(dtype=float) < 0.0 if "QDZ1" in rows else False
+    return np.asarray(~usual.all(axis=1) | turned)
 
 
 def _other_loads(rows: pd.DataFrame) -> np.ndarray:

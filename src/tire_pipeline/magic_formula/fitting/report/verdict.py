@@ -37,6 +37,8 @@ _OTHER_SIGN = 0.02
 """Share of slips of the other sign up to which a recording has one direction only."""
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
+_SMALL_SLIP = 1e-3
+"""rad; either way, for slopes while rolling straight."""
 _SLIP_BINS = 20
 _ROWS_OF_BIN = 5
 
@@ -113,11 +115,13 @@ def poor_outputs(
             _falls(model, output, points, start) or _turned(output, seen, start)
         ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
+        if output == "mz" and _negative_trail(model, seen):
+            wrong.append("the pneumatic trail is negative: Mz turns the wheel out of its run")
         units, levels = _units(output, points, seen) or inputs, _levels(model, output, seen, at_bound)
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or _signs(output, seen, start) or _without_force(output, points, forces)
+            reason = units or _signs(model, output, seen, start) or _without_force(output, points, forces)
             reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
@@ -208,6 +212,16 @@ def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], star
     return bool((found * _sign_of(output, model if start is None else start) <= 0.0).any())
 
 
+def _negative_trail(model: TireModel, seen: _Measured) -> bool:
+    """Whether the moment goes with the slip angle as the side force does; small slips have to be known."""
+    if not seen.slip.size or _without_small_slips(seen):
+        return False
+    either = np.array([-_SMALL_SLIP, _SMALL_SLIP])
+    load = float(np.median(seen.load))
+    at = model.forces(slip_angle=either, normal_load=load, limits="ignore", outputs=("fy", "mz"))
+    return bool(np.diff(at.fy)[0] * np.diff(at.mz)[0] > 0.0)
+
+
 def _sign_of(output: str, tire: TireModel) -> float:
     """Return the sign of force over slip of a tire's own convention."""
     return 1.0 if output == "fx" else float(np.sign(tire.coefficients.get("PKY1", -1.0)))
@@ -233,9 +247,11 @@ def _friction(seen: _Measured) -> float:
     return float(np.quantile(np.abs(seen.force) / seen.load, 0.98)) if seen.force.size else 0.0
 
 
-def _signs(output: str, seen: _Measured, start: TireModel | None) -> str:
+def _signs(model: TireModel, output: str, seen: _Measured, start: TireModel | None) -> str:
     """Return what is wrong with the signs of a poor fit, or nothing."""
     name = SLIP_OF_FORCE.get(output, "slip_angle")
+    if output == "mz" and _negative_trail(model, seen):
+        return "axes or signs; beside fy, mz over slip_angle has the other sign than a tire's."
     if output in TANGENTIAL_FORCES and _turned(output, seen, start):
         whose = "the start model's" if output == "fy" else "a tire's (braking: negative slip_ratio and fx)"
         return f"axes or signs; {output} over {name} has the other sign than {whose}."

@@ -1,0 +1,60 @@
+"""Whether a recorded aligning moment has the sign that the pneumatic trail gives it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.recordings.issue import Issue
+
+_OF_TRAIL = ("slip_angle", "normal_load", "fy", "mz")
+_SMALL_PART = 0.33
+"""Slip angles up to this part of the largest are small: the moment has its peak near that."""
+_FREE_ROLLING = 0.02
+"""Slip ratio up to which the longitudinal force adds little to the moment."""
+_SURE = 0.5
+"""Squared correlation with the slip angle from which a slope is one."""
+_LEAST_ROWS = 10
+
+
+def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
+    """Report a moment that turns the wheel out of its run, in which no pneumatic trail points.
+
+    At small slip angles the side force acts behind the middle of the contact patch (Pacejka 2012, ch. 1).
+    Side force and aligning moment then have slopes of opposite sign over the slip angle, in any axes.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in _OF_TRAIL):
+        return []
+    slip, load, fy, mz = (frame[name].to_numpy(dtype=float) for name in _OF_TRAIL)
+    good = np.isfinite(slip) & np.isfinite(fy) & np.isfinite(mz) & (np.abs(load) > 0.0)
+    if "slip_ratio" in frame:
+        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > _FREE_ROLLING)
+    if not good.any():
+        return []
+    good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
+    if np.sum(good) < _LEAST_ROWS or np.ptp(slip[good]) == 0.0:
+        return []
+    of_force, of_moment = (_slope(slip[good], y[good] / load[good]) for y in (fy, mz))
+    if of_force * of_moment <= 0.0:
+        return []
+    return [
+        Issue(
+            "moment_of_other_sign",
+            "warning",
+            "mz, beside fy at small slip angles",
+            "no tire turns the wheel out of its run: bring mz and fy to one axis system, or turn the sign of "
+            "mz in the file",
+        )
+    ]
+
+
+def _slope(x: np.ndarray, y: np.ndarray) -> float:
+    """Return the slope of a straight line; 0 where there is none."""
+    x, y = x - x.mean(), y - y.mean()
+    squares = float(x @ x) * float(y @ y)
+    return float(x @ y) / float(x @ x) if squares > 0.0 and float(x @ y) ** 2 > _SURE * squares else 0.0
