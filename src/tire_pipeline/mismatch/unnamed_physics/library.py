@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
+from typing import Literal
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import number, parse
@@ -25,6 +26,7 @@ EACH_NODE = math.log(2.0)
 """Log evidence that a node costs: a shorter equation comes first. One bit."""
 BREAKS_MIRROR = 3.0
 """Log evidence that a term costs which breaks the mirror symmetry."""
+Alone = Literal["never", "too", "only"]
 
 
 @dataclass(frozen=True)
@@ -42,8 +44,8 @@ class Way:
         Whether the factors have to be odd in the mirror.
     drivers : frozenset of str
         What it depends on without any factor, beside the force that it is a part of.
-    alone : bool
-        Whether it is a term without any factor, too. For a force this is an effect of the catalogue.
+    alone : {"never", "too", "only"}
+        Whether it is a term without any factor. For a force this is an effect of the catalogue.
     """
 
     name: str
@@ -51,7 +53,7 @@ class Way:
     base: dict[str, str] = field(hash=False)
     odd: bool
     drivers: frozenset[str] = frozenset()
-    alone: bool = False
+    alone: Alone = "never"
 
 
 _BY_LOAD = frozenset({"normal_load"})
@@ -70,11 +72,13 @@ WAYS_TO_ACT = (
     Way("fx into fy", "the longitudinal force, turned into the side force", {"fy": "fx"}, True),
     Way("late fy", "the side force, late", {"fy": "F0"}, True),
     Way("late fx", "the longitudinal force, late", {"fx": "F0"}, False),
-    Way("mz", "the aligning moment, by a factor", {"mz": "mz"}, False, alone=True),
-    Way("trail", "the side force, with an arm", {"mz": "R0*fy"}, False, alone=True),
-    Way("arm", "the longitudinal force, with an arm", {"mz": "R0*fx"}, True, frozenset({"slip_ratio"}), True),
-    Way("added mz", "an added aligning moment", {"mz": "F0*R0*L"}, True, _BY_LOAD, True),
-    Way("offset mz", "a constant aligning moment", {"mz": "F0*R0"}, True, alone=True),
+    Way("mz", "the aligning moment, by a factor", {"mz": "mz"}, False, alone="too"),
+    Way("trail", "the side force, with an arm", {"mz": "R0*fy"}, False, alone="too"),
+    Way(
+        "arm", "the longitudinal force, with an arm", {"mz": "R0*fx"}, True, frozenset({"slip_ratio"}), "too"
+    ),
+    Way("added mz", "an added aligning moment", {"mz": "F0*R0*L"}, True, _BY_LOAD, "too"),
+    Way("offset mz", "a constant aligning moment", {"mz": "F0*R0"}, True, alone="only"),
 )
 WAY = {way.name: way for way in WAYS_TO_ACT}
 
@@ -260,8 +264,10 @@ def _of_way(way: Way, now: list[Factor], memory: list[Factor], outputs: tuple[st
     if not acts or (way.name == "force" and len(outputs) == 1):
         return
     late = way.name.startswith("late")
-    if way.alone:
+    if way.alone != "never":
         yield Term(way.name, ())
+    if way.alone == "only":
+        return
     if "mz" in way.base:
         now = [replace(f, drivers=_OF_MOMENT.get(f.text, f.drivers)) for f in now]
     for factor in memory if late else [*now, *memory]:

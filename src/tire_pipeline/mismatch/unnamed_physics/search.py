@@ -33,7 +33,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import (
 )
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problems.aligning_moment import of_moment
 from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import USUAL_MISFIT, coarsely, problem_of
@@ -51,6 +51,8 @@ from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
+_MISFIT_IS_NOT = 0.5
+"""Of an error squared, what one equation may leave: a misfit has many causes, and is not mostly of one."""
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
@@ -90,7 +92,7 @@ def unnamed_moment(
         Whether they leave the moment as it was.
     plainly : bool
         Ask for more, because the error might be the formula's usual misfit: the terms have to predict
-        operating conditions that were not seen.
+        operating conditions that were not seen, and to remove most of the squared error there.
 
     Returns
     -------
@@ -98,7 +100,13 @@ def unnamed_moment(
         None where no more is left than noise and the misfit of a formula.
     """
     problem = of_moment(analysis, changes, as_filed=as_filed)
-    return None if problem is None else find(by_condition(problem) if plainly else problem)
+    if problem is None:
+        return None
+    found = find(by_condition(problem) if plainly else problem)
+    before, after, _ = found.unseen.get(ALIGNING_MOMENT, (1.0, 1.0, 1.0))
+    if plainly and after**2 > _MISFIT_IS_NOT * before**2:
+        return found.refused("it leaves most of an error that may be the formula's misfit")
+    return found
 
 
 def instead_of_names(analysis: Analysis) -> UnnamedReport | None:

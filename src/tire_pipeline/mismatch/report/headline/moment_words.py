@@ -60,11 +60,13 @@ def _equation(unnamed: UnnamedReport) -> str:
     """Say how what is missing acts, and what its equation removes on unseen sweeps."""
     if unnamed.physics is None:
         return ""
-    on = f" that depends on {', '.join(unnamed.physics.depends_on)}" if unnamed.physics.depends_on else ""
+    acts_on, drivers = unnamed.physics.acts_on, ", ".join(unnamed.physics.depends_on)
+    as_one = len(unnamed.coefficients) == 1 or not drivers
+    acts = f"acts as {acts_on}{f' that depends on {drivers}' if drivers else ''}"
     before, after, _ = unnamed.unseen[ALIGNING_MOMENT]
     return (
-        f"what is missing acts as {unnamed.physics.acts_on}{on}: an equation of it takes the RMS error from "
-        f"{newtons(before)} N m to {newtons(after)} N m on held-out sweeps"
+        f"what is missing {acts if as_one else f'depends on {drivers}'}: an equation of it takes the RMS "
+        f"error from {newtons(before)} N m to {newtons(after)} N m on held-out sweeps"
     )
 
 
