@@ -117,3 +117,10 @@ def test_the_page_gives_the_moment_its_unit(about_another_point, tmp_path):
     page = about_another_point.to_html(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "Mz (N m)" in page
     assert "</code> N m</p>" in page
+    assert "Mz recorded - simulated (N m)" in page
+
+
+def test_a_moment_that_agrees_has_no_figure(with_trail, rig, tmp_path):
+    page = explain_mismatch(with_trail, rig()).to_html(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "Mz (N m)" in page
+    assert "Mz recorded - simulated" not in page

@@ -51,7 +51,12 @@ from tire_pipeline.mismatch.report.remarks import (
     with_reasons,
 )
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.unnamed_part import moment_error, only_moment, put_in_equations
+from tire_pipeline.mismatch.report.unnamed_part import (
+    moment_error,
+    moment_series,
+    only_moment,
+    put_in_equations,
+)
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names
@@ -180,7 +185,7 @@ def assembled(it: Explained) -> MismatchReport:
             *filter(None, [_searched(it), _to_one_side(it, put_in), not_looked_for(analysis.absent)]),
         ],
         candidates=_candidates(analysis, answer),
-        series=_series(analysis, noise, model.part),
+        series=_series(analysis, noise, model.part) | moment_series(analysis, model, moment),
         assumed=prepared.assumed,
         find_visible=list
         if prepared.stopped

@@ -75,12 +75,12 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
         few = x.size < _MARKED_POINTS
         look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
         axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
-        if report.corrected.changes:
+        if _changes(report, output):
             axes.plot(*_broken(x, s[f"after_{output}"]), color=_AFTER, label="after", **look)
         low, high = axes.get_ylim()
         axes.set_ylim(low, low + (high - low) / (1.0 - _HEIGHT_OF_A_BAR * len(barred)))  # bars hide no peak
         axes.set_xlabel("time (s)" if s["time"] is not None else "point")
-        axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
+        axes.set_ylabel(_difference(output))
         legend = axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
         for line in legend.get_lines():
             line.set_linewidth(2.0)  # the curves are too thin to show their colour
@@ -98,11 +98,11 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
     slip = _slip(report, output)
-    name = SLIP_OF_FORCE[output]
+    name = _slip_of(output)
     factor = SHOWN_UNITS[name].factor
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
-    kinds = ["before"] + (["after"] if report.corrected.changes else [])
+    kinds = ["before"] + (["after"] if _changes(report, output) else [])
     points = slip.size < _MARKED_POINTS
     maps: list[Any] = []
     edges = (
@@ -129,12 +129,29 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
             ax.set_xlabel(axis_label(name))
             ax.grid(False)
         axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
-        figure.colorbar(mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated (N)")
+        figure.colorbar(
+            mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated ({unit_of(output)})"
+        )
     return figure
 
 
+def _changes(report: ReportContents, output: str) -> bool:
+    """Whether an output is drawn with what was found, too: a moment with its equation, forces without one."""
+    if output in TANGENTIAL_FORCES:
+        return bool(report.corrected.changes)
+    return bool(np.any(report.series[f"after_{output}"] != report.series[f"before_{output}"]))
+
+
+def _difference(output: str) -> str:
+    return f"{output.capitalize()} recorded - simulated ({unit_of(output)})"
+
+
+def _slip_of(output: str) -> str:
+    return SLIP_OF_FORCE.get(output, "slip_angle")
+
+
 def _slip(report: ReportContents, output: str) -> Any:
-    return report.series[SLIP_OF_FORCE[output]]
+    return report.series[_slip_of(output)]
 
 
 def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
@@ -163,10 +180,10 @@ def overview(report: ReportContents) -> Figure:
 
 def _map_caption(report: ReportContents, output: str) -> str:
     points = _slip(report, output).size < _MARKED_POINTS
-    faded = "; it should fade from before to after" if report.corrected.changes else ""
+    faded = "; it should fade from before to after" if _changes(report, output) else ""
     cancels = "" if points else f" Grey: fewer than {_FEWEST_OF_A_CELL} samples. {_CANCELS}"
     return (
-        f"{output.capitalize()} over slip and load: recorded minus simulated force, "
+        f"{output.capitalize()} over slip and load: recorded minus simulated, "
         f"{'each point' if points else 'mean of each cell'}. Strong colour marks where they "
         f"differ{faded}.{cancels}{_repaired(report)}"
     )
@@ -176,7 +193,7 @@ def _order(report: ReportContents) -> list[str]:
     """Outputs with series, those that differ most first."""
     return sorted(
         (o for o in report.fit if f"before_{o}" in report.series),
-        key=lambda o: -report.fit[o].rms_before / max(report.fit[o].noise_floor, 1e-9),
+        key=lambda o: -report.fit[o].rms_before / max(report.series[f"floor_{o}"], 1e-9),
     )
 
 

@@ -8,15 +8,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.magic_formula.fitting.report.verdict import MOST_LEFT
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.model.channels import largest
+from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, largest
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.residual import partly, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
 from tire_pipeline.mismatch.unnamed_physics.search import (
     more_than_usual,
     unnamed_moment,
@@ -24,12 +25,11 @@ from tire_pipeline.mismatch.unnamed_physics.search import (
 )
 from tire_pipeline.progress import under_way
 
+Array = np.ndarray
 SOMETHING_LEFT = ("unexplained", "partly explained")
 _SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
 _AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
 _ENDS_HERE = "an equation of the clock or the way rolled ends with its recording, and settles nothing"
-_FAR_OFF = 0.1
-"""Error of the aligning moment over its largest, above noise, that no fitted formula leaves: calspan 7%."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +53,9 @@ class MomentError:
 
     @property
     def far_off(self) -> bool:
-        """Whether it is farther off than a fitted formula is."""
+        """Whether it is as far off as a fit that counts as failed; calspan's leaves 7%."""
         above = self.before**2 - np.nan_to_num(self.noise) ** 2
-        return bool(above > (_FAR_OFF * self.largest) ** 2)
+        return bool(above > (MOST_LEFT * self.largest) ** 2)
 
     @property
     def other_sign(self) -> bool:
@@ -139,3 +139,34 @@ def put_in_equations(
     of_moment, with_moment = never_worse(of_moment, model, recording)
     both = found.joined(of_moment)
     return both, with_moment if found.physics is None else replace(put_in, unnamed=both.physics)
+
+
+def moment_series(
+    analysis: Analysis, model: CorrectedModel, moment: MomentError | None
+) -> dict[str, Array | float]:
+    """Return the page's arrays of the aligning moment, N m, where it differs.
+
+    Parameters
+    ----------
+    analysis : Analysis
+    model : CorrectedModel
+        With what was found.
+    moment : MomentError, optional
+    """
+    equation = model.unnamed if model.unnamed is not None and model.unnamed.of_moment else None
+    if moment is None or (equation is None and not moment.far_off):
+        return {}
+    data, name = analysis.data, ALIGNING_MOMENT
+    changes = () if name in model.as_filed else model.changes
+    first, last = (simulate_moments(data, each, (name,))[name] for each in ((), changes))
+    added: Array | float = 0.0
+    if equation is not None:
+        added = equation.change(table_of(data, model.changes, equation.nominal, (name,))[0])[name]
+    recorded, step = data.channels[name], max(1, data.size // ENOUGH_ROWS)
+    after = recorded - partly(first, last, model.part) - added
+    noise = float(np.nan_to_num(moment.noise))
+    return {
+        f"before_{name}": (recorded - first)[::step],
+        f"after_{name}": after[::step],
+        f"floor_{name}": noise,
+    }

@@ -73,7 +73,7 @@ class UnnamedPhysics:
     @property
     def title(self) -> str:
         """``unnamed: depends on ...``."""
-        itself = "the moment itself" if self.of_moment else "the force itself"
+        itself = "nothing but the forces" if self.of_moment else "the force itself"
         return f"unnamed: depends on {', '.join(self.depends_on) or itself}"
 
     @property

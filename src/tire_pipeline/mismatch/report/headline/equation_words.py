@@ -67,7 +67,7 @@ def _resembles(found: UnnamedReport, rivals: Sequence[Sequence[str]]) -> str:
 
 def _drivers(found: UnnamedReport) -> str:
     assert found.physics is not None
-    itself = "the moment itself" if found.physics.of_moment else "the force itself"
+    itself = "nothing but the forces" if found.physics.of_moment else "the force itself"
     return ", ".join(found.physics.depends_on) or itself
 
 
