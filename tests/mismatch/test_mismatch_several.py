@@ -7,7 +7,7 @@ import pytest
 from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import Explainer, explain_recordings
+from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.several import predict_held_out
 
 FEW = Explainer(without=all_but("friction_scale", "stiffness_scale", "force_offset"))
@@ -83,3 +83,11 @@ def test_a_report_is_drawn_and_fits_in_a_notebook(together):
     assert "recorded minus simulated" in figure.subfigs[0].get_supxlabel()
     assert repr(report).startswith(f"MismatchReport({report.verdict!r}: ")
     assert "<th>RMS before</th>" in report._repr_html_()
+
+
+def test_a_radius_that_no_wheel_has_is_noted_of_one_recording_and_of_several(tire, record):
+    runs = {name: record(seed).iloc[:1500].assign(loaded_radius=305.0) for name, seed in (("a", 5), ("b", 6))}
+    said = [note for note in explain_recordings(tire, runs, explainer=FEW).notes if "no wheel has" in note]
+    assert [note.partition(" is ")[0] for note in said] == ["a: loaded_radius", "b: loaded_radius"]
+    alone = explain_mismatch(tire, runs["a"], without=all_but("force_offset"))
+    assert [n.partition(" is ")[0] for n in alone.notes if "no wheel has" in n] == ["loaded_radius"]

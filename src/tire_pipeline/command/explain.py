@@ -69,7 +69,6 @@ def command(
     """Explain a mismatch."""
     from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
-    from tire_pipeline.recordings.conventions.plausible import implausible_radii
     from tire_pipeline.reporting.mismatch.explained_recordings import check_effects
     from tire_pipeline.tir import read_tir
 
@@ -84,7 +83,6 @@ def command(
     by_path = dict(zip(paths, read, strict=True))
     held_out = by_path[_among(hold_out, runs)] if hold_out else None
     report = explain_recordings(tire, read, held_out=held_out, explainer=Explainer(without=without))
-    report.notes += implausible_radii(read)
     if len(read) == 1:
         report.notes[:0] = notes_beside_assumed(next(iter(read.values())))
     written, refusal = [], None

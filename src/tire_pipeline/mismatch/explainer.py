@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import pandas as pd
@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.data import Choices
 from tire_pipeline.mismatch.report.assemble import Explained
 from tire_pipeline.mismatch.report.result import MismatchReport
+from tire_pipeline.recordings.conventions.plausible import implausible_radii
 from tire_pipeline.tasks import one_thread
 
 
@@ -182,4 +183,5 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[
     >>> "stiffness_scale" in report.sets[0][0], report.fit["fy"].rms_before > 5 * report.fit["fy"].rms_after
     (True, True)
     """
-    return Explainer(without=without).explain(tire, recording)
+    report = Explainer(without=without).explain(tire, recording)
+    return replace(report, notes=[*report.notes, *implausible_radii({"": recording})])

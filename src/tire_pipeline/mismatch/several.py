@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.headline.sentences import with_held_out, without_equation
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
+from tire_pipeline.recordings.conventions.plausible import implausible_radii
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
@@ -109,7 +110,8 @@ def explain_recordings(
     except RecordingError as error:
         where = ", ".join(filter(None, [*explained, error.where]))
         raise RecordingError(error.what, where=where, todo=error.todo) from error
-    report = replace(report, recordings=tuple(explained), notes=[*notes, *report.notes])
+    notes = [*notes, *report.notes, *implausible_radii(recordings)]
+    report = replace(report, recordings=tuple(explained), notes=notes)
     if held_out is None:
         return report
     report = _equation_held(report, recordings[held_out], held_out)

@@ -294,6 +294,7 @@ class _FitNotes:
         self.undetermined: list[str] = []
         self.fitted: set[str] = set()
         self.at_bound: list[str] = []
+        self._together: dict[tuple[str, str], tuple[int, list[str]]] = {}
 
     def leave(self, reason: str, names: Sequence[str], at: Mapping[str, float] | None = None) -> None:
         """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
@@ -309,12 +310,12 @@ class _FitNotes:
 
     def _leave_together(self, reason: str, names: Sequence[str], where: str) -> None:
         """Note coefficients beside those that another stage left at the same value for the same reason."""
-        head, list_of_names = f"{reason}: ", ", ".join(names)
-        for i, text in enumerate(self.undetermined):
-            if text.startswith(head) and text.endswith(where) and text.count(" kept at ") == 1:
-                self.undetermined[i] = f"{text.removesuffix(where)}, {list_of_names}{where}"
-                return
-        self.undetermined.append(f"{head}{list_of_names}{where}")
+        if (reason, where) not in self._together:
+            self._together[reason, where] = (len(self.undetermined), [])
+            self.undetermined.append("")
+        place, every = self._together[reason, where]
+        every += names
+        self.undetermined[place] = f"{reason}: {', '.join(every)}{where}"
 
     def add(self, stage: Stage, outcome: Outcome, rows: int) -> None:
         """Note what a stage has found."""

@@ -20,7 +20,6 @@ from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
-from tire_pipeline.recordings.conventions.plausible import implausible_radii
 from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.tir.sidecar import sidecar_path
 
@@ -81,7 +80,6 @@ class ExplainTask:
             tire, runs = _read(loads)
             explainer = Explainer(without=self.without, learnt=self.learnt)
             report = explain_recordings(tire, runs, held_out=self.held_out, explainer=explainer)
-            report.notes += implausible_radii(runs)
         except Exception as error:
             cause = cause_in_entry(error)
             if isinstance(cause, UnreachableError):
