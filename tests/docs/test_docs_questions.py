@@ -43,3 +43,12 @@ def test_each_number_in_an_answer_stands_on_the_page():
         for question, answer in questions:
             for number in re.findall(r"(?<![\w.])\d+(?:[.,]\d+)*(?![\w])", answer):
                 assert re.search(rf"(?<![\d.,]){re.escape(number)}(?!\d)", text), (page, question, number)
+
+
+def test_each_share_and_commit_in_an_answer_stands_on_the_page():
+    """A number alone may stand on the page for another reason: a percentage and a commit hardly do."""
+    for page, questions in QUESTIONS.items():
+        text = (ROOT / page).read_text("utf-8")
+        for question, answer in questions:
+            for word in re.findall(r"(?<![\w.])\d+(?:\.\d+)?%|\b(?=[a-f]*\d)[0-9a-f]{7,40}\b", answer):
+                assert re.search(rf"(?<![\w.]){re.escape(word)}", text), (page, question, word)
