@@ -13,9 +13,8 @@ EVERYDAY = frozenset(
     "alternative background band batch confidence drift driver effect guard pair protocol set".split()
 )
 """Terms that are everyday words, too: on many pages they mean just that."""
-PAGES = sorted(
-    page for folder in ("tutorials", "how-to", "explanation") for page in (DOCS / folder).glob("*.md")
-)
+FOLDERS = ("tutorials", "how-to", "explanation", "reference", "decisions")
+PAGES = sorted(page for folder in FOLDERS for page in (DOCS / folder).glob("*.md") if page != GLOSSARY)
 
 
 def terms() -> list[str]:
