@@ -81,3 +81,21 @@ def test_a_mirrored_aligning_moment_is_no_success(sign, told):
         fit = fit_magic_formula(table, starts=2)
     assert any("the pneumatic trail is negative" in str(each.message) for each in caught) is told
     assert ("mz" in fit.poor) is told
+
+
+@pytest.mark.parametrize(("sign", "told"), [(1.0, False), (-1.0, True)], ids=["as it is", "mirrored"])
+def test_a_mirrored_camber_is_no_success(sign, told):
+    """A flat-belt recording in SAE axes was fitted with the camber thrust of a mirrored tire."""
+    tire, sweep = tire_52(), 0.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 60))
+    parts = [
+        pd.DataFrame({"slip_angle": sweep, "camber": camber, "normal_load": load * tire.value("FNOMIN")})
+        for load in (0.5, 1.0, 1.5)
+        for camber in (-0.05, 0.0, 0.05)
+    ]
+    table = pd.concat(parts, ignore_index=True)
+    forces = tire.forces(**{name: table[name].to_numpy() for name in table}, limits="ignore")
+    table = table.assign(fy=forces.fy, camber=sign * table["camber"])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", PoorFitWarning)
+        fit_magic_formula(table, starts=2)
+    assert any("away from the side to which the wheel leans" in str(w.message) for w in caught) is told

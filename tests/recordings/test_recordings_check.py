@@ -300,3 +300,21 @@ def test_a_moment_with_a_trail_or_of_noise_is_not(trail):
 def test_the_sign_of_a_moment_is_not_judged_by_brake_sweeps():
     frame = with_moment(-0.03).assign(slip_ratio=-0.1)
     assert check_recording(frame) == []
+
+
+def leaning(sign=1.0, lean=lambda slip: np.repeat([0.0, 0.03], slip.size // 2), seed=4):
+    """Sweeps of slip angle at two cambers in ISO W; with the sign -1 the camber is mirrored."""
+    rng = np.random.default_rng(seed)
+    slip = 0.15 * np.sin(np.linspace(0.0, 16.0 * np.pi, 800))
+    camber, load = lean(slip), np.tile([3000.0, 4500.0], 400)
+    fy = -load * (np.tanh(12.0 * slip) + camber) + 40.0 * rng.standard_normal(slip.size)
+    return pd.DataFrame({"slip_angle": slip, "camber": sign * camber, "normal_load": load, "fy": fy})
+
+
+def test_a_side_force_away_from_the_lean_is_reported():
+    assert [issue.name for issue in check_recording(leaning(-1.0))] == ["camber_of_other_sign"]
+    assert check_recording(leaning()) == []
+
+
+def test_a_camber_that_goes_with_the_slip_angle_says_nothing():
+    assert check_recording(leaning(-1.0, lean=lambda slip: 0.2 * slip)) == []

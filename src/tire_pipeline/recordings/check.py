@@ -22,9 +22,9 @@ from tire_pipeline.recordings.conventions.plausible import (
     units_of_larger_loads,
 )
 from tire_pipeline.recordings.issue import Issue
+from tire_pipeline.recordings.physical_signs import moment_of_other_sign, side_force_away_from_the_lean
 from tire_pipeline.recordings.spikes import said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
-from tire_pipeline.recordings.trail_sign import moment_of_other_sign
 from tire_pipeline.recordings.unit_jumps import unit_jumps
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
@@ -229,7 +229,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
         issues += _spikes(str(column), values) if column in USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
-    return issues + moment_of_other_sign(frame)
+    return issues + moment_of_other_sign(frame) + side_force_away_from_the_lean(frame)
 
 
 def _slip_not_measured(frame: pd.DataFrame) -> list[Issue]:

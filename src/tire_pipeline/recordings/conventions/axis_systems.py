@@ -16,6 +16,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.camber_thrust import camber_thrust
 from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.units import find_unit
@@ -60,7 +61,8 @@ def to_iso_w(
     told = axes is not None
     if axes is not None and axes.upper() not in ("ISO", "SAE"):
         raise RecordingError(f"axes={axes!r}", todo='choose "ISO" or "SAE"')
-    axes = (axes or "ISO").upper()
+    by_camber = "" if told else _by_camber(frame, origin)
+    axes = (axes or by_camber or "ISO").upper()
     if axes == "SAE":
         # SAE J670e: y to the right and z down. Fz is taken as given and looked at below.
         for column in ("slip_angle", "fy", "my", "mz"):
@@ -70,7 +72,7 @@ def to_iso_w(
     systems = {c: _system(origin[c]) for c in _COMPONENT if c in frame}
     if "C" in systems.values():
         _c_to_h(frame, systems, notes, conversions)
-    mirrored = _flip_load(frame, axes, notes, conversions)
+    mirrored = _flip_load(frame, axes, notes if not by_camber else [], conversions)
     if {"H", "C"} & {s for c, s in systems.items() if c in MOMENT_CHANNELS}:
         _moments_to_contact(frame, systems, constants, notes, conversions)
     bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
@@ -78,12 +80,32 @@ def to_iso_w(
         notes.append(f"{', '.join(bare)}: no axis system given; ISO W assumed")
     if told:
         return f"{axes} axes, as stated", ""
+    if by_camber:
+        return (
+            f"{axes} axes, which were not stated: Fz is negative throughout, and with camber Fy changes in "
+            f"the direction that it has in {axes} axes"
+        ), ""
     if systems and "?" not in systems.values():
         return "axes by the names of the channels (TYDEX)", ""
     against = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
     return "ISO W axes, which were not stated" + (
         f" ({against}; only Fz was mirrored)" if against else ""
     ), against
+
+
+def _by_camber(frame: pd.DataFrame, origin: dict[str, str]) -> str:
+    """Return ISO or SAE where the load is negative and the force of a leaning wheel tells; else nothing.
+
+    If the camber had the other sign instead, all would be the mirror image: the same tire.
+    """
+    needed = ("slip_angle", "camber", "normal_load", "fy")
+    if any(name not in frame for name in needed) or _system(origin["fy"]) != "?":
+        return ""
+    slip, camber, load, fy = (frame[name].to_numpy(dtype=float) for name in needed)
+    if not (load < 0.0).any() or (load > 0.0).any():
+        return ""
+    thrust = camber_thrust(slip, camber, load, fy)
+    return "SAE" if thrust > 0.0 else "ISO" if thrust < 0.0 else ""
 
 
 def _system(name: str) -> str:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tire_pipeline.camber_thrust import camber_thrust
 from tire_pipeline.channels import ANGLE_CHANNELS, FORCES_OF_MOMENT, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP
 from tire_pipeline.magic_formula.model import TireModel
@@ -37,6 +38,9 @@ _OTHER_SIGN = 0.02
 """Share of slips of the other sign up to which a recording has one direction only."""
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
+_FREE_ROLLING = 0.02
+"""Slip ratio up to which a wheel rolls freely."""
+_OF_CAMBER_SIGN = "axes or signs; the data are in SAE axes, or camber has the other sign than in ISO W."
 _SMALL_SLIP = 1e-3
 """rad; either way, for slopes while rolling straight."""
 _SLIP_BINS = 20
@@ -115,13 +119,21 @@ def poor_outputs(
             _falls(model, output, points, start) or _turned(output, seen, start)
         ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
+        away = output == "fy" and _away_from_the_lean(points, forces[output])
+        if away:
+            wrong.append("with camber, the side force points away from the side to which the wheel leans")
         if output == "mz" and _negative_trail(model, seen):
             wrong.append("the pneumatic trail is negative: Mz turns the wheel out of its run")
         units, levels = _units(output, points, seen) or inputs, _levels(model, output, seen, at_bound)
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or _signs(model, output, seen, start) or _without_force(output, points, forces)
+            reason = (
+                units
+                or (_OF_CAMBER_SIGN if away else "")
+                or _signs(model, output, seen, start)
+                or _without_force(output, points, forces)
+            )
             reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
@@ -210,6 +222,13 @@ def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], star
     stiffness = "slip_stiffness" if output == "fx" else "cornering_stiffness"
     found = getattr(model.forces(limits="ignore", outputs=(stiffness,), **at), stiffness)
     return bool((found * _sign_of(output, model if start is None else start) <= 0.0).any())
+
+
+def _away_from_the_lean(points: Mapping[str, np.ndarray], fy: np.ndarray) -> bool:
+    """Whether the measured side force points away from the side to which the wheel leans, in ISO W axes."""
+    free = np.abs(points["slip_ratio"]) < _FREE_ROLLING
+    slip, camber, load = (points[name][free] for name in ("slip_angle", "camber", "normal_load"))
+    return camber_thrust(slip, camber, load, fy[free]) > 0.0
 
 
 def _negative_trail(model: TireModel, seen: _Measured) -> bool:

@@ -1,12 +1,14 @@
-"""Whether a recorded aligning moment has the sign that the pneumatic trail gives it."""
+"""Whether forces and moments have the signs that physics gives them: pneumatic trail and camber thrust."""
 
 from __future__ import annotations
 
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.camber_thrust import camber_thrust
 from tire_pipeline.recordings.issue import Issue
 
+_OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
 _OF_TRAIL = ("slip_angle", "normal_load", "fy", "mz")
 _SMALL_PART = 0.33
 """Slip angles up to this part of the largest are small: the moment has its peak near that."""
@@ -49,6 +51,30 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
             "mz, beside fy at small slip angles",
             "no tire turns the wheel out of its run: bring mz and fy to one axis system, or turn the sign of "
             "mz in the file",
+        )
+    ]
+
+
+def side_force_away_from_the_lean(frame: pd.DataFrame) -> list[Issue]:
+    """Report a side force that points away from the side to which the wheel leans.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in _OF_LEAN):
+        return []
+    thrust = camber_thrust(*(frame[name].to_numpy(dtype=float) for name in _OF_LEAN))
+    if thrust <= 0.0:
+        return []
+    return [
+        Issue(
+            "camber_of_other_sign",
+            "warning",
+            "fy, beside camber at small slip angles",
+            'a wheel is pushed to the side to which it leans: the file is in SAE axes (axes="SAE", --axes '
+            "SAE), or its camber has the other sign",
         )
     ]
 
