@@ -13,6 +13,7 @@ from command_line import COEFFICIENTS, page, run, told
 
 from tire_pipeline.command.cli import COMMANDS, WarningsInOneLine
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.compare import compare_models
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
@@ -138,6 +139,24 @@ def test_compare_measures_the_forces_apart(folder):
     assert 0.02 < found["differences"]["fy"]["share"] < 0.11
     assert "Coefficients that differ" in page(folder / "a_against_b.html")
     assert "B minus A" in run("compare", "a.tir", "b.tir").stdout
+
+
+def test_compare_gives_the_change_from_the_first_file_to_the_second(folder):
+    write_tir(read_tir("a.tir").replace(PKY1=1.25 * COEFFICIENTS["PKY1"]), "b.tir")
+    for files, change in ((("a.tir", "b.tir"), "+25.0%"), (("b.tir", "a.tir"), "-20.0%")):
+        shown = run("compare", *files, "--no-page").stdout.splitlines()
+        assert next(line for line in shown if line.startswith("cornering stiffness")).split()[-2] == change
+
+
+def test_compare_takes_the_camber_in_degrees(folder):
+    first = read_tir("a.tir")
+    second = first.replace(PHY3=0.05)
+    write_tir(second, "b.tir")
+    apart = compare_models(first, second, loads=[4000.0], camber=np.radians(3.0))
+    wanted = {each.output: each.rms for each in apart}["fy"]
+    found = told("compare", "a.tir", "b.tir", "--load", 4000, "--camber", 3, "--no-page")
+    assert found["differences"]["fy"]["rms"] == pytest.approx(wanted)
+    assert told("compare", "a.tir", "b.tir", "--no-page")["differences"]["fy"]["rms"] == 0.0
 
 
 def test_compare_gives_the_difference_of_an_output_that_only_one_file_has(folder):

@@ -81,6 +81,26 @@ def test_check_says_that_names_tell_the_axes(folder):
     assert "Read with SAE axes, as stated: at a positive" in run("check", "run.csv", "--axes", "SAE").stdout
 
 
+def test_check_says_the_rate_and_which_sign_the_side_force_has(folder):
+    record("run.csv", seconds=5.0)
+    shown = run("check", "run.csv", "--no-page").stdout
+    assert "CSV, 250 samples over 4.98 s at 50 Hz." in shown
+    assert "at a positive slip angle the side force is negative, as in ISO W." in shown
+    rows = pd.read_csv("run.csv")
+    rows.assign(fy=-rows["fy"]).to_csv("turned.csv", index=False)
+    assert "the side force is positive, unlike in ISO W" in run("check", "turned.csv", "--no-page").stdout
+    rows.assign(fy=rows["fy"].abs()).to_csv("lost.csv", index=False)
+    assert "the side force does not follow the slip angle" in run("check", "lost.csv", "--no-page").stdout
+
+
+def test_a_column_may_have_an_equals_sign_in_its_name(folder):
+    record("run.csv", seconds=5.0)
+    pd.read_csv("run.csv").rename(columns={"fy": "F=ma"}).to_csv("own.csv", index=False)
+    found = told("check", "own.csv", "--name", "F=ma=fy", "--unit", "F=ma=kN", "--no-page")
+    assert found["channels"]["fy"]["channel"] == "F=ma"
+    assert found["channels"]["fy"]["highest"] > 1e6
+
+
 def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):
     record("run.csv", seconds=1.0)
     assert "-> save it again" in run("check", "run.csv", "--format", "MAT", code=2).stderr

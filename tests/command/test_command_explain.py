@@ -64,7 +64,9 @@ def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
 def test_a_radius_that_no_wheel_has_is_said_beside_the_explanation(folder):
     """A loaded radius of 305 m went unsaid: millimetres that were read as metres."""
     record("run.csv")
-    pd.read_csv("run.csv").assign(loaded_radius=305.0).to_csv("mm.csv", index=False)
+    pd.read_csv("run.csv").assign(loaded_radius=305.0, Lampe=1.0).to_csv("mm.csv", index=False)
     call = ("explain", "a.tir", "mm.csv", "--no-page", *FEW)
-    assert "note: loaded_radius is 305 m, which no wheel has; the unit is likely mm" in run(*call).stdout
+    shown = run(*call).stdout
+    assert "note: loaded_radius is 305 m, which no wheel has; the unit is likely mm" in shown
+    assert "note: not used, because their names are not known: Lampe" in shown
     assert "which no wheel has" not in run(*call, "--unit", "loaded_radius=mm").stdout

@@ -36,7 +36,9 @@ def test_fit_gives_no_residual_of_a_force_that_it_could_not_fit(folder):
     found = told("fit", "run.csv", "-o", "out.tir", "--no-page")
     assert "fx" in found["not_fitted"]
     assert "fx" not in found["relative_rms"]
-    assert "Fx: recorded, but" in run("fit", "run.csv", "-o", "out2.tir", "--no-page").stdout
+    shown = run("fit", "run.csv", "-o", "out2.tir", "--no-page").stdout
+    assert "Fx: recorded, but" in shown
+    assert "note: not determined by the data: no camber sweeps: PDY3" in shown
     assert "There is no longitudinal force" in run("show", "out.tir", "--no-page").stdout
 
 

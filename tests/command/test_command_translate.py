@@ -134,7 +134,10 @@ def test_nothing_beyond_the_edge_of_the_training_data_is_written(folder):
     call = ("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--farthest", "0.01", "--json")
     said = json.loads(run(*call).stdout)
     assert said["verdict"] == "refused"
-    assert said["distance"] > 0.01
+    assert 0.01 < said["distance"] < 1.0
+    assert "outside of what D has measured" not in said["reason"]
+    distance = f"distance {said['distance']:.3g}, 0.01 is allowed, the edge is 1"
+    assert said["reason"] == f"this tire is farther from what D has measured than was asked for: {distance}"
     assert said["written"] == ["tire_translate.html"]
     assert not Path("tire_as_D.tir").exists()
 
@@ -156,6 +159,14 @@ def test_other_places_of_a_model(folder, translator):
     assert "damaged" in run("translate", "A/tire.tir", "--model", "released", code=2).stderr
     (folder / "other.npz").write_bytes(pack_state({"classifier": "random_forest"}))
     assert "not a translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr
+
+
+def test_the_nominal_load_that_a_translator_does_not_state_is_assumed_and_said(folder, translator):
+    (folder / "old.npz").write_bytes(pack_state(translator.to_state()))
+    call = ("translate", "A/tire.tir", "--model", "old.npz", "--overwrite", "--no-page")
+    said = "the translator does not say at which nominal load it has learned: 6000 N"
+    assert said in " ".join(run(*call).stdout.split())
+    assert said not in " ".join(run(*call, "--nominal-load", "6000").stdout.split())
 
 
 def test_the_model_beside_a_misspelt_name_is_named(folder):

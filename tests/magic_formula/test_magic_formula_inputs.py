@@ -121,6 +121,24 @@ def test_ranges_warn_once_with_the_count_and_never_clip():
     np.testing.assert_array_equal(forces.fy, TIRES["5.2"].forces(**points, limits="ignore").fy)
 
 
+@pytest.mark.parametrize(
+    ("point", "said"),
+    [
+        ({"slip_angle": 0.3, "normal_load": 3000.0}, "slip_angle: 1 of 1 outside"),
+        ({"slip_angle": -0.3, "normal_load": 3000.0}, "slip_angle: 1 of 1 outside"),
+        ({"slip_angle": 0.1, "normal_load": 6000.0}, "normal_load: 1 of 1 outside"),
+        ({"slip_angle": 0.1, "normal_load": 3000.0}, None),
+    ],
+)
+def test_a_single_point_outside_of_the_ranges_is_told_as_an_array_is(point, said):
+    tire = TIRES["5.2"].replace(ALPMIN=-0.2, ALPMAX=0.2, FZMIN=500.0, FZMAX=5000.0)
+    for each in (point, {name: [value] for name, value in point.items()}):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            tire.forces(**each)
+        assert [said in str(one.message) for one in told] == ([True] if said else [])
+
+
 def test_limits_clip_or_raise_on_request():
     tire = TIRES["5.2"].replace(ALPMIN=-0.2, ALPMAX=0.1)
     clipped = tire.forces(slip_angle=[0.3, -0.4], normal_load=3000.0, limits="clip")

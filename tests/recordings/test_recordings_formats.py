@@ -51,6 +51,8 @@ def test_columns_of_other_names_are_asked_for_by_their_unit(tmp_path):
     assert "--name Zeit=time," in asked
     named = read_recording(file, names={"Zeit": "time", "Reifendruck [bar]": "pressure"})
     assert not [note for note in named.attrs["notes"] if "--name" in note]
+    pd.DataFrame({"t [s]": T, "Dauer [s]": T, "SA [deg]": SA, "FY [N]": FY}).to_csv(file, index=False)
+    assert not [note for note in read_recording(file).attrs["notes"] if "--name" in note], "there is a time"
     np.testing.assert_allclose(named["pressure"], 2.3e5)
 
 
@@ -163,6 +165,19 @@ def test_negative_load_is_mirrored_and_sae_is_asked_for(tmp_path):
     np.testing.assert_allclose(sae["slip_angle"], SA * DEG)
     with pytest.raises(RecordingError, match="axes='vehicle'"):
         read_recording(file, axes="vehicle")
+
+
+def test_sae_mirrors_what_points_to_the_right_or_down(tmp_path):
+    """SAE J670e has x as ISO W has it, y to the right and z down."""
+    names = {"slip_angle": "rad", "camber": "rad", "slip_ratio": "-", "normal_load": "N", "fx": "N"}
+    names |= {"fy": "N", "mx": "N m", "my": "N m", "mz": "N m"}
+    file = tmp_path / "a.csv"
+    file.write_text(
+        ",".join(f"{n} [{u}]" for n, u in names.items()) + "\n" + ",".join("1" * len(names)) + "\n"
+    )
+    iso, sae = (read_recording(file, axes=axes)[list(names)].iloc[0] for axes in ("ISO", "SAE"))
+    assert (iso == 1.0).all()
+    assert {name for name in names if sae[name] == -1.0} == {"slip_angle", "fy", "my", "mz"}
 
 
 def test_repeated_rows_go_and_repeated_stamps_stay(tmp_path):

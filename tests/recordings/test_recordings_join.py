@@ -76,6 +76,13 @@ def test_rates_are_brought_to_the_slowest():
     assert any("fast: 4 samples each averaged, 200 to 50 Hz" in note for note in joined.attrs["notes"])
 
 
+def test_nothing_is_averaged_over_a_gap_nor_from_fewer_samples():
+    fast = run(rate=200.0).drop(index=range(402, 600))
+    own = join_recordings({"slow": run(), "fast": fast}).iloc[1000:]
+    assert len(own) == 400 // 4 + 3400 // 4
+    assert own["time"].iloc[99] - own["time"].iloc[0] == pytest.approx(99 * 0.02)
+
+
 def test_steady_points_are_joined_without_time():
     points = run(seconds=1.0).drop(columns="time")
     joined = join_recordings({"a": points, "b": points})

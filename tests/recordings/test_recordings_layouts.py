@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 import scipy.io
 from asammdf import MDF, Signal
@@ -134,6 +136,35 @@ def test_long_names_in_plain_english(tmp_path):
     np.testing.assert_allclose(recording[["slip_angle", "camber"]], np.c_[SA, SA] * DEG)
     np.testing.assert_allclose(recording[["normal_load", "fy"]], VALUES[:, 2:])
     assert "not used, because their names are not known: Lamp" in recording.attrs["notes"]
+
+
+@pytest.mark.parametrize(("unit", "steps"), [("s", 1), ("ms", 20), ("us", 20_000), ("ns", 20_000_000)])
+def test_parquet_dates_are_counted_in_seconds(tmp_path, unit, steps):
+    file = tmp_path / "a.parquet"
+    stamps = np.datetime64("2024-09-09T12:00:00", unit) + steps * np.arange(50)
+    pq.write_table(pa.table({"time": stamps, "slip_angle": SA * DEG, "normal_load": FZ, "fy": FY}), file)
+    wanted = np.arange(50.0) if unit == "s" else T
+    np.testing.assert_allclose(read_recording(file)["time"], wanted, atol=1e-6)
+
+
+def test_a_unit_beside_the_channels_holds_before_one_at_the_top_of_a_mat_file(tmp_path):
+    file = tmp_path / "a.mat"
+    at_the_top = dict.fromkeys(NAMES, "N") | {"ET": "min", "SA": "rad"}
+    scipy.io.savemat(file, {"units": at_the_top, "run": COLUMNS | {"units": UNIT_OF}})
+    check(read_recording(file), "MAT")
+
+
+def test_invalid_samples_of_an_mdf_file_are_missing(tmp_path):
+    file = tmp_path / "a.mf4"
+    invalid = np.arange(T.size) % 10 == 3
+    with MDF(version="4.10") as mdf:
+        signals = [Signal(v, T, name=n, unit=u) for n, u, v in LISTED[1:]]
+        signals[-1] = Signal(FY, T, name="FY", unit="N", invalidation_bits=invalid)
+        mdf.append(signals)
+        mdf.save(file)
+    recording = read_recording(file)
+    assert (recording["fy"].isna() == invalid).all()
+    np.testing.assert_allclose(recording["fy"][~invalid], FY[~invalid])
 
 
 def test_mdf_names_with_a_device_behind_them(tmp_path):

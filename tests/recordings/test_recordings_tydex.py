@@ -93,6 +93,14 @@ def test_all_axis_systems_give_the_same_forces(tmp_path, system):
     np.testing.assert_allclose(recording[["mx", "my", "mz"]], moment, rtol=1e-5, atol=1e-3)
 
 
+def test_without_a_loaded_radius_half_of_the_diameter_is_the_arm_and_that_is_said(tmp_path):
+    channels = [row(n, "", u, 1, 0, 0) for n, u in (("FYH", "N"), ("FXH", "N"), ("FZH", "N"), ("MXH", "Nm"))]
+    constants = [row("OVALLDIA", "Overall diameter", "mm", 600)]
+    recording = read_recording(write(tmp_path / "a.tdx", channels, [[1000.0, 0.0, 4000.0, 20.0]], constants))
+    np.testing.assert_allclose(recording["mx"], 20.0 - 0.3 * 1000.0)
+    assert any("by half of OVALLDIA" in text for text in recording.attrs["conversions"])
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 
 import pandas as pd
+import pytest
 
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.reporting.translation.translated_rows import SHOWN_VERDICTS
@@ -71,6 +72,19 @@ def test_files_that_were_asked_for_are_not_called_all():
     assert "shows these files only" in asked
     assert "stay in 07_model_output/translated" in asked
     assert "at most 3 files" in outcome(trials=3)[2]
+
+
+@pytest.mark.parametrize(
+    ("farthest", "said"),
+    [
+        (1.0, "none beyond distance 1, the edge of the training data"),
+        (2.5, "none beyond distance 2.5, as asked for (1 is the edge of the training data)"),
+    ],
+)
+def test_how_far_from_the_training_data_was_translated_is_said(farthest, said):
+    asked = TranslateParameters(farthest=farthest)
+    page, _ = translate_page([REPORT], {}, pd.DataFrame(), [], asked, "D")
+    assert said in html.unescape(str(page))
 
 
 def test_the_head_of_the_page_says_what_came_out_and_the_end_how():

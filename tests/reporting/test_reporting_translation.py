@@ -120,6 +120,13 @@ def test_own_files_come_first_and_those_that_need_no_translation_last():
     assert [row[0] for row in in_order(rows)] == ["x/a.tir", "x/b.tir", "lab/a.tir", "A/1.tir"]
 
 
+def test_what_is_unusual_in_a_file_is_counted():
+    notes = {"a.tir": "", "b.tir": "PKY1 has two values", "c.tir": "one | two | three"}
+    report = pd.DataFrame({"file": list(notes), "verdict": "translated", "notes": list(notes.values())})
+    rows = in_order(listed([report], set()))
+    assert [row[ROW_COLUMNS.index("noted")] for row in rows] == [0, 1, 3]
+
+
 def test_an_unknown_supplier_is_called_by_its_folder():
     report = pd.DataFrame(
         {

@@ -58,6 +58,39 @@ def test_a_second_run_waits_if_asked_to(draw):
     second.check()
 
 
+def test_a_second_run_gives_up_when_the_time_that_it_may_wait_is_over(draw):
+    draw("first")
+    clock = Clock()
+    with pytest.raises(DomainError, match="run first"):
+        wait_for_turn(draw("second"), clock, wait_seconds=1.5)
+    assert clock.now == 1001.5
+
+
+def test_a_living_run_is_remembered_however_many_end_after_it(draw):
+    first = draw("first")
+    for _ in range(60):
+        draw("short", alongside=True).end()
+    first.check()
+    with pytest.raises(DomainError, match="run first"):
+        wait_for_turn(draw("next"))
+
+
+def test_a_ticket_that_a_full_disk_has_no_room_for_leaves_no_note(draw, runs, monkeypatch):
+    """An empty note would be watched by each run after it until it counts as dead."""
+
+    def full(handle: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "fsync", full)
+        with pytest.raises(OSError, match="No space left"):
+            draw("first")
+    assert list(runs.glob("*.json")) == []
+    clock = Clock()
+    wait_for_turn(draw("next"), clock)
+    assert clock.now == 1000.0
+
+
 def test_a_run_that_ends_while_it_is_looked_at_keeps_its_results(draw, runs, monkeypatch):
     """Its note was listed, and its lock is free: that is how a run ends well, too."""
     first = draw("good", places=["table.csv/good"])
@@ -101,7 +134,7 @@ def test_a_lock_that_is_free_on_the_same_boot_tells_at_once_that_the_run_is_dead
     assert not (runs.parent / "table.csv").exists()
 
 
-@pytest.mark.parametrize("change", [{}, {"boot": ""}, {"locked": False}])
+@pytest.mark.parametrize("change", [{}, {"boot": ""}, {"locked": False}, {"device": -7}])
 def test_elsewhere_a_note_that_stands_still_is_dead_after_the_expiry_and_not_before(draw, runs, change):
     own = draw("own")
     if change:  # on this system, but with locks that tell nothing

@@ -81,6 +81,11 @@ def test_lines_that_name_a_measurement_come_first():
     assert measurement_date("$ DATE : 20110131" + REST) == DAY
 
 
+@pytest.mark.parametrize(("written", "day"), [("02.03.2011", (2011, 3, 2)), ("12. 11. 2011", (2011, 11, 12))])
+def test_with_points_the_day_comes_first(written: str, day: tuple[int, int, int]):
+    assert measurement_date(f"$ tested {written}{REST}") == dt.date(*day)
+
+
 def test_only_the_header_is_read():
     assert measurement_date("[MDI_HEADER]\n$ tested 2011-01-31\n[UNITS]\n$ 2012-01-01") == DAY
     assert measurement_date("[MDI_HEADER]\n(COMMENTS)\n{comment}\n'2011-01-31'\n[UNITS]\n") == DAY

@@ -48,6 +48,20 @@ def test_no_warning_where_nothing_is_lost():
         tire.forces(normal_load=4000.0, slip_angle=0.05, outputs=("fx", "fy", "cornering_stiffness"))
 
 
+@pytest.mark.parametrize("model", VERSIONS)
+def test_a_carcass_stands_in_for_the_radius_of_relaxation_lengths_in_6_only(model):
+    """They are K over C there; in 5.x they are in proportion to the radius whatever the file has besides."""
+    tire = read_tir(without_radius(model).encode())
+    tire = tire.replace(LATERAL_STIFFNESS=2e5, LONGITUDINAL_STIFFNESS=4e5, PTY1=2.0, PTY2=2.0, PTX1=1.5)
+    lengths = ("relaxation_lateral", "relaxation_longitudinal")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = tire.forces(normal_load=4000.0, slip_angle=0.05, outputs=lengths)
+    assert np.isfinite(found.relaxation_lateral) == (tire.family == 6)
+    assert len(told) == (0 if tire.family == 6 else 1)
+    assert all(name in str(each.message) for each in told for name in lengths)
+
+
 def test_an_unloaded_wheel_transmits_nothing_even_so():
     tire = read_tir(without_radius("FITTYP = 61").encode())
     for load in (0.0, np.zeros(2)):

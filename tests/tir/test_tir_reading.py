@@ -34,6 +34,8 @@ def read(text: str, encoding: str = "utf-8"):
 def test_fittyp(fittyp: str, version: str):
     tire = read(tir_text(model=f"FITTYP = {fittyp}   $Magic Formula = version"))
     assert tire.version == version
+    told = any("has no equations of its own here" in each for each in tire.metadata["warnings"])
+    assert told == (fittyp in ("60", "21"))
 
 
 @pytest.mark.parametrize(
@@ -63,6 +65,7 @@ def test_the_keys_decide_where_no_label_does(keys: str, version: str):
 def test_a_version_comment_helps_where_no_label_does():
     text = "! : TIRE_VERSION :      MF-Tyre 6.1\n" + tir_text(model="USE_MODE = 14")
     assert read(text).version == "6.1"
+    assert read(text.replace("6.1", "5.1").replace("USE_MODE = 14", "FITTYP = 5")).version == "5.1"
 
 
 def test_a_label_of_the_model_section_is_followed():

@@ -83,6 +83,14 @@ def test_removed_coefficients_become_comments():
     assert "PHY1" in read_tir(text.encode()).defaulted
 
 
+def test_a_removed_coefficient_is_gone_by_whatever_name_the_file_has_it():
+    tire = read_tir(tir_text(model="FITTYP = 61", more="[TIRE_CONDITIONS]\nIP_NOM = 220000").encode())
+    left = {k: v for k, v in tire.coefficients.items() if k != "NOMPRES"}
+    text = tir_bytes(TireModel("6.1", left, metadata=tire.metadata, source=tire.source)).decode()
+    assert "$ IP_NOM = 220000" in text
+    assert "NOMPRES" not in read_tir(text.encode()).coefficients
+
+
 def test_changed_metadata_is_written():
     tire = read_tir(ODD_TEXT.encode())
     metadata = {**tire.metadata, "DIMENSION.WIDTH": 0.225, "MODEL.TYRESIDE": "RIGHT", "INERTIA.MASS": 9.5}
@@ -136,6 +144,7 @@ def test_a_model_without_a_file_gets_a_complete_one(version: str, tmp_path):
     assert again.defaulted == {}
     assert again.metadata["DIMENSION.WIDTH"] == 0.205
     assert again.metadata["MODEL.TYRESIDE"] == "RIGHT"
+    assert again.metadata["MODEL.USE_MODE"] == (4.0 if version == "PAC2002" else 14.0)  # combined slip
     text = path.read_text()
     assert text.count("$not given: this value is used") == len(tire.defaulted)
     assert max(map(len, text.splitlines())) < 200
@@ -291,6 +300,7 @@ def test_edits_of_the_text():
     file = parse_tir(b"A = 1\nB = 2\n")
     assert file.edited([(10, 11, "3"), (0, 0, "$\n"), (4, 5, "2")]).text == "$\nA = 2\nB = 3\n"
     assert file.get("", "b") == "2"
+    assert parse_tir(b"A = 1\nA = 2\n").get("", "a") == "2"  # the last one holds, as on reading
     assert file.get("X", "b", "none") == "none"
 
 
@@ -306,6 +316,8 @@ def test_computed_coefficients_have_nine_digits_and_the_others_their_own(tmp_pat
     assert "PDY1 = 0.98000000000000009" in text
     assert "PKY1 = -19.6966362\n" in text
     assert "UNLOADED_RADIUS = 310.5" in text
+    slightly = tire.replace(PDY1=tire.coefficients["PDY1"] * (1 + 1e-7))
+    assert "PDY1 = 0.980000098\n" in write_tir(slightly, tmp_path / "slightly.tir", digits=9).read_text()
     assert "PKY1 = -19.696636249078992" in write_tir(moved, tmp_path / "exact.tir").read_text()
     fresh = write_tir(TireModel.from_coefficients(dict(moved.coefficients)), tmp_path / "fresh.tir", digits=9)
     assert read_tir(fresh).coefficients["PKY1"] == -19.6966362

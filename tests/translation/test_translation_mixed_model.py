@@ -16,8 +16,9 @@ from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, normalize_table
 from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
-from tire_pipeline.translation.judge.bias_band import bias_band
+from tire_pipeline.translation.judge.bias_band import bias_band, measured_by_both
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.result import (
@@ -32,6 +33,8 @@ from tire_pipeline.translation.result import (
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 pytestmark = pytest.mark.slow
+KEYS = (("lateral", 0), ("lateral", 1), ("longitudinal", 0), ("longitudinal", 1))
+"""Stiffness and friction, as features of their group."""
 
 
 @pytest.mark.parametrize("name", ["mixed", "paired"])
@@ -167,6 +170,32 @@ def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
     pd.testing.assert_frame_equal(held.table.iloc[[0]], rows.iloc[[0]])
 
 
+def test_a_distance_just_beyond_the_edge_does_not_read_as_the_edge(paired, hidden):
+    rows, found = hidden.head(1), paired.predict(hidden.head(1))
+    rules = paired.parts.verdict
+    reach = replace(rules.reach, gap=1e9)  # the curves alone tell
+    reach = replace(reach, surprise=reach.surprise * reach.distance(paired.model, rows, found)[0] / 1.003)
+    near = replace(rules, reach=reach, gate=True, farthest=1.0)
+    judged = near.judge(paired.model, rows, rows, found).iloc[0]
+    assert judged["distance"] == pytest.approx(1.003)
+    assert "distance 1.01, the edge is 1. Add training files of such tires" in judged["reason"]
+
+
+@pytest.mark.parametrize(
+    ("change", "verdict"), [({"PDY1": 2.6}, REFUSED), ({"PCX1": 2.5}, REFUSED), ({"PEY1": 1.3}, TRANSLATED)]
+)
+def test_a_tire_that_was_impossible_before_is_refused_but_for_its_curvature(paired, hidden, change, verdict):
+    """A formula bounds the curvature factor itself."""
+    rows = hidden.head(1)
+    found = paired.predict(rows)
+    moved = paired.parts.decoder.decode(paired.model, rows, found)
+    judged = paired.parts.verdict.judge(
+        paired.model, rows.assign(**change), moved.assign(**change), found
+    ).iloc[0]
+    assert judged["verdict"] == verdict
+    assert ("no physical tire found: " in judged["reason"]) == (verdict == REFUSED)
+
+
 def test_unbiased_is_only_whose_bands_hold_zero_and_little_else(paired, hidden):
     """The same verdict on the same files, with the bias taken out of the model, and with it in."""
     rows = hidden[hidden["category"].astype(str) != "D"]
@@ -192,6 +221,18 @@ def test_unbiased_is_only_whose_bands_hold_zero_and_little_else(paired, hidden):
     assert (open_to_all["verdict"] == LEFT_ALONE).all()
     assert open_to_all["reason"].str.contains("I can't tell whether there is one", regex=False).all()
     assert without["bias_band"].str.count("%").eq(8).all()
+
+
+def test_the_band_of_a_bias_lies_about_what_the_source_measures_more_than_the_target(paired, hidden):
+    found = paired.predict(hidden)
+    source, target = measured_by_both(paired.model, hidden, found)
+    more = {name: source[name] - target[name] for name in ("lateral", "longitudinal")}  # logarithms
+    columns = [more[group][:, part * LOADS.size :][:, : LOADS.size].mean(axis=1) for group, part in KEYS]
+    band = bias_band(paired.model, found)
+    middle = 0.5 * (np.log1p(band.low) + np.log1p(band.high))
+    np.testing.assert_allclose(middle, np.column_stack(columns), atol=1e-9)
+    assert (band.low < band.high).all()
+    assert np.abs(middle).max() > 0.02
 
 
 def test_the_expected_error_in_words_is_rms(paired, hidden):

@@ -1,11 +1,14 @@
 """A change of protocol in a small fleet: found, told and put right."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.curves.features import LOADS
+from tire_pipeline.translation.judge.effects import KEY_PARTS
 from tire_pipeline.translation.population.fit_model import prepare
 from tire_pipeline.translation.result import (
     comment_lines,
@@ -51,6 +54,10 @@ def test_a_change_of_protocol_is_found_told_and_put_right(changing, hidden):
     told = result.protocols.iloc[0]
     assert told["category"] == "E"
     assert 5.0 < float(told["lateral friction"].split("%")[0]) < 11.0
+    for part in KEY_PARTS:
+        middle, low, high = map(float, re.findall(r"[+-][\d.]+", told[part]))
+        assert low < middle < high, part
+    assert told["earliest"] <= told["day"] <= told["latest"]
     again = translator_from_state(changing.to_state())
     pd.testing.assert_frame_equal(again.translate(both), result.table)
 

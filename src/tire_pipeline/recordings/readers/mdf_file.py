@@ -61,7 +61,8 @@ def _collect(file: Any) -> RawRecording:
             if channel.data_type > _LARGEST_NUMERIC_TYPE or channel.channel_type == _VARIABLE_LENGTH:
                 notes.append(f"{channel.name}: no plain numbers, left out")
                 continue
-            signal = file.get(group=index, index=number)
+            # asammdf would drop invalid samples, and the channels of a group were of different lengths
+            signal = file.get(group=index, index=number, ignore_invalidation_bits=True)
             samples = np.asarray(signal.samples)
             if samples.ndim != 1 or samples.dtype.kind not in "fiub":
                 notes.append(f"{channel.name}: no plain numbers, left out")

@@ -24,7 +24,7 @@ from tire_pipeline.translation.judge.reach import OWN_LOAD, TrainingReach, beyon
 from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.shrinkage import shortened
-from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
+from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
 FARTHEST_DISTANCE = 3.0
 """Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
@@ -184,7 +184,7 @@ class VerdictRules:
         for i in range(len(rows)):
             reason[i] = f"expected RMS error {np.sqrt(ratio[i]):.0%} of the unchanged file's"
             if self.gate and distance[i] > self.farthest:
-                verdict[i], reason[i] = REFUSED, _too_far(self.target, distance[i], loads[i])
+                verdict[i], reason[i] = REFUSED, self._too_far(distance[i], loads[i])
             elif impossible.iloc[i]:
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
@@ -210,6 +210,24 @@ class VerdictRules:
             },
             index=rows.index,
         )
+
+    def _too_far(self, distance: float, loads: str) -> str:
+        """Say that a tire is outside of the training data, or only farther than was asked for."""
+        if distance <= EDGE:
+            return (
+                f"this tire is farther from what {self.target} has measured than was asked for: distance "
+                f"{distance:.3g}, {self.farthest:g} is allowed, the edge is {EDGE:g}"
+            )
+        beyond = max(distance, 1.01)  # what is beyond the edge never reads as 1.00
+        said = (
+            f"this tire is outside of what {self.target} has measured: distance {beyond:.2f}, the edge is 1"
+        )
+        said += f" ({loads})" if loads else ""
+        if distance > FARTHEST_DISTANCE:
+            return f"{said}; a translation cannot be trusted"
+        far = f"{FARTHEST_DISTANCE:g}"
+        most = f"it by --params translate.farthest={far} (tire translate: --farthest {far})"
+        return f"{said}. Add training files of such tires, or allow {most}"
 
     def to_state(self) -> dict[str, Any]:
         """Return the arrays, strings and numbers that restore it."""
@@ -250,17 +268,6 @@ def _other_loads(rows: pd.DataFrame) -> np.ndarray:
     for i in np.flatnonzero(beyond_judged_loads(load) > 1.0):
         out[i] = f"{judged}, its nominal load is {float(f'{load[i] / 1e3:.3g}'):,g} kN"
     return out
-
-
-def _too_far(target: str, distance: float, loads: str) -> str:
-    beyond = max(distance, 1.01)  # what is beyond the edge never reads as 1.00
-    said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}, the edge is 1"
-    said += f" ({loads})" if loads else ""
-    if distance > FARTHEST_DISTANCE:
-        return f"{said}; a translation cannot be trusted"
-    far = f"{FARTHEST_DISTANCE:g}"
-    most = f"it by --params translate.farthest={far} (tire translate: --farthest {far})"
-    return f"{said}. Add training files of such tires, or allow {most}"
 
 
 def _why_alone(
