@@ -31,6 +31,8 @@ CHECK = {"pressures": (1.1, 0.9), "loads": (0.75, 1.25)}
 """As shares of the nominal pressure and load; the check run has levels that the first one never has."""
 ISO = -1.0
 """Sign of the slip angle: the simulator counts it the other way round."""
+ODD_IN_CAMBER = ("PEY4", "PHY3", "PVY3", "PVY4")
+"""Coefficients that change their sign with the camber's: the simulator counts that the other way round, too."""
 UNITS = {"time": "s", "slip_angle": "deg", "normal_load": "N", "pressure": "kPa", "speed": "km/h", "fy": "N"}
 TITLES = {"time": "ET", "slip_angle": "SA", "normal_load": "FZ", "pressure": "P", "speed": "V", "fy": "FY"}
 
@@ -86,6 +88,7 @@ def main(folder: Path = HERE) -> None:
     rig = BrushRig(constants, rng.random(4), ISO, {}, {"fx": 0.0, "fy": 0.0}, 24)
     largest = float(rig.run(sweeps(plan, (1.0,), RUN["loads"]), {})["fy"].abs().max())
     tire, _ = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
+    tire = tire.replace(**{name: -tire.coefficients[name] for name in ODD_IN_CAMBER})
     write_tir(tire, folder / "tire.tir", overwrite=True, digits=COMPUTED_DIGITS)
     noise = draw_noise(rng, constants, largest)
     for name, levels in (("rig_run", RUN), ("rig_check", CHECK)):

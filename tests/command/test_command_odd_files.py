@@ -122,3 +122,12 @@ def test_show_has_no_row_for_the_peak_of_a_force_that_is_not_there(folder):
     assert "slip ratio of the peak" not in shown
     assert "slip angle of the peak" in shown
     assert "slip ratio of the peak" in run("show", "a.tir", "--no-page").stdout
+
+
+@pytest.mark.parametrize(("shift", "told_so"), [(-0.04, True), (0.04, False)], ids=["mirrored", "as a tire"])
+def test_a_file_whose_camber_pushes_the_wrong_way_is_told(folder, shift, told_so):
+    """``PHY3`` shifts the slip angle with camber: the other way round the wheel runs away from its lean."""
+    write_tir(TireModel.from_coefficients({**COEFFICIENTS, "PHY3": shift}), "b.tir")
+    said = " ".join(run("show", "b.tir", "--no-page").stdout.split())
+    assert ("away from the side to which the wheel leans" in said) is told_so
+    assert (figures("b.tir")["camber stiffness"] < 0.0) is told_so

@@ -68,6 +68,27 @@ def test_a_force_that_the_file_has_not_is_said_to_be_absent():
     assert np.isnan(values["largest longitudinal friction"])
 
 
+def test_camber_stiffness_and_trail_are_those_of_the_forces():
+    leaning = TireModel.from_coefficients(
+        {"FNOMIN": 4000.0, "UNLOADED_RADIUS": 0.3, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20.0, "PKY2": 2.0}
+        | {"PHY3": 0.05, "QBZ1": 9.0, "QCZ1": 1.1, "QDZ1": 0.1}
+    )
+    values = {f.name: f.value for f in key_figures(leaning)}
+    each_way = np.radians([0.2, -0.2])
+    fy = leaning.forces(camber=each_way, normal_load=4000.0).fy
+    assert values["camber stiffness"] == pytest.approx(-(fy[0] - fy[1]) / 0.4, rel=1e-2)
+    assert values["camber stiffness"] > 0.0
+    turned = leaning.forces(slip_angle=[1e-4, -1e-4], normal_load=4000.0)
+    trail = -(turned.mz[0] - turned.mz[1]) / (turned.fy[0] - turned.fy[1])
+    assert values["pneumatic trail"] == pytest.approx(trail, rel=1e-3)
+    bare = TireModel.from_coefficients(
+        {"FNOMIN": 4000.0, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20.0, "PKY2": 2.0}
+    )
+    assert all(
+        np.isnan(f.value) for f in key_figures(bare) if f.name in ("camber stiffness", "pneumatic trail")
+    )
+
+
 def test_key_figures_are_those_of_the_forces(tire):
     values = {f.name: f.value for f in key_figures(tire)}
     small = tire.forces(slip_angle=1e-6, normal_load=4000.0).fy

@@ -75,6 +75,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
     turned = unlike_iso(model.coefficients)
+    turned += [] if turned else _mirrored_camber(model)
     lines += [f"{said}." for said in turned]
     odd = [said for said in file_warnings(model) if said not in turned]
     held = {f.name for f in figures if f.value == f.value}
@@ -104,6 +105,22 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         return _page(model, file, lines, grids, odd, loads, camber)
 
     return CommandOutcome(file.name, lines, data, page, grids, odd)
+
+
+def _mirrored_camber(model: TireModel) -> list[str]:
+    """Say that camber pushes the tire away from the side to which it leans, by as much as none does."""
+    from tire_pipeline.magic_formula.key_figures import camber_stiffness
+    from tire_pipeline.magic_formula.parameters.camber_thrust import LEAST_THRUST
+
+    load = model.value("FNOMIN")
+    thrust = camber_stiffness(model, load) / load
+    if not thrust < -LEAST_THRUST:
+        return []
+    return [
+        "With camber the side force points away from the side to which the wheel leans "
+        f"({digits(three_digits(-thrust))} times the load per rad): the file was made in other axes than ISO "
+        "W, or with the camber of the other sign"
+    ]
 
 
 def _in_short(figures: list[KeyFigure]) -> list[str]:

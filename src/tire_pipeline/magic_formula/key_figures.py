@@ -19,6 +19,8 @@ LARGEST_SLIP_RATIO = 0.3
 SHARES_OF_LOAD = (0.5, 1.0, 1.5)
 _POINTS_OF_CURVE = 301
 _FEWEST_LOADS = 2
+_SMALL_CAMBER = 0.01
+"""rad; either way, for the slope."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +54,10 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
     Returns
     -------
     list of KeyFigure
-        Stiffness, peak friction and the slips of the peaks, largest aligning moment, relaxation lengths. Of
-        a force without a level (``PDX1``, ``PDY1``) or a stiffness all are NaN: what is left of it is an
-        offset.
+        Stiffness, peak friction and the slips of the peaks, camber stiffness, pneumatic trail and largest
+        aligning moment, relaxation lengths. Of a force without a level (``PDX1``, ``PDY1``) or a stiffness
+        all are NaN: what is left of it is an offset. The camber stiffness is positive where the force points
+        to the side to which the wheel leans, as in every tire.
 
     Examples
     --------
@@ -86,6 +89,8 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
         KeyFigure("slip stiffness", along, "N"),
         KeyFigure("largest longitudinal friction", _peak(pull) / load, ""),
         KeyFigure("slip ratio of the peak", _at_peak(ratio, pull), ""),
+        KeyFigure("camber stiffness", camber_stiffness(model, load) * DEGREE, "N/deg"),
+        KeyFigure("pneumatic trail", _trail(model, still), "m"),
         KeyFigure("largest aligning moment", _peak(torque), "N m"),
         KeyFigure("lateral relaxation length", _positive(still.relaxation_lateral), "m"),
         KeyFigure("longitudinal relaxation length", _positive(still.relaxation_longitudinal), "m"),
@@ -134,6 +139,28 @@ def usual_loads(models: Sequence[TireParameters]) -> list[float]:
     if len(inside) < _FEWEST_LOADS and 0.0 < low < high < np.inf:
         return [low, 0.5 * (low + high), high]
     return inside or [nominal]
+
+
+def camber_stiffness(model: TireParameters, normal_load: float) -> float:
+    """Return the side force to the side to which the wheel leans, N/rad, while rolling straight.
+
+    NaN where the model has none.
+
+    Parameters
+    ----------
+    model : TireParameters
+    normal_load : float
+        N.
+    """
+    either = np.array([-_SMALL_CAMBER, _SMALL_CAMBER])
+    found = tire_forces(model, OperatingPoints(normal_load=normal_load, camber=either), limits="ignore")
+    stiffness = -float(np.diff(found.fy)[0]) / (2.0 * _SMALL_CAMBER)
+    return stiffness if model.value("PDY1") and stiffness else float("nan")
+
+
+def _trail(model: TireParameters, still: Any) -> float:
+    """Pneumatic trail while rolling straight, m; NaN where the model has none."""
+    return float(still.trail) if model.value("QDZ1") and model.value("PDY1") else float("nan")
 
 
 def _stiffness(model: TireParameters, level: str, value: Any) -> float:

@@ -5,18 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.camber_thrust import camber_thrust
+from tire_pipeline.magic_formula.parameters.camber_thrust import FREE_ROLLING, camber_thrust
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
 _OF_TRAIL = ("slip_angle", "normal_load", "fy", "mz")
 _SMALL_PART = 0.33
 """Slip angles up to this part of the largest are small: the moment has its peak near that."""
-_FREE_ROLLING = 0.02
-"""Slip ratio up to which the longitudinal force adds little to the moment."""
-_SURE = 0.5
+_STRAIGHT = 0.5
 """Squared correlation with the slip angle from which a slope is one."""
-_LEAST_ROWS = 10
+_FEWEST_ROWS = 10
 
 
 def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
@@ -35,11 +33,11 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
     slip, load, fy, mz = (frame[name].to_numpy(dtype=float) for name in _OF_TRAIL)
     good = np.isfinite(slip) & np.isfinite(fy) & np.isfinite(mz) & (np.abs(load) > 0.0)
     if "slip_ratio" in frame:
-        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > _FREE_ROLLING)
+        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > FREE_ROLLING)
     if not good.any():
         return []
     good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
-    if np.sum(good) < _LEAST_ROWS or np.ptp(slip[good]) == 0.0:
+    if np.sum(good) < _FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
         return []
     of_force, of_moment = (_slope(slip[good], y[good] / load[good]) for y in (fy, mz))
     if of_force * of_moment <= 0.0:
@@ -83,4 +81,4 @@ def _slope(x: np.ndarray, y: np.ndarray) -> float:
     """Return the slope of a straight line; 0 where there is none."""
     x, y = x - x.mean(), y - y.mean()
     squares = float(x @ x) * float(y @ y)
-    return float(x @ y) / float(x @ x) if squares > 0.0 and float(x @ y) ** 2 > _SURE * squares else 0.0
+    return float(x @ y) / float(x @ x) if squares > 0.0 and float(x @ y) ** 2 > _STRAIGHT * squares else 0.0

@@ -10,7 +10,7 @@ import pandas as pd
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.concealed.brush_rig.recorded_run import RIG_FORCES, BrushRig
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
-from tire_pipeline.magic_formula import DegreesWarning, TireModel
+from tire_pipeline.magic_formula import DegreesWarning, PoorFitWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 
@@ -64,15 +64,18 @@ def fit_clean(
     frame = frame[[*SLIP_AND_LOAD, *RIG_FORCES]].copy()
     for force in RIG_FORCES:
         frame[force] += noise * rng.standard_normal(len(frame))
-    fitted = fit_magic_formula(
-        frame,
-        "5.2",
-        nominal_load=plan.nominal_load,
-        unloaded_radius=round(rig.constants.radius, 4),
-        starts=2,
-        loss="linear",
-        together=False,  # a seed keeps its case
-    )
+    with warnings.catch_warnings():
+        # the rig turns the sign of its slip angle, not that of its camber: a mirrored tire
+        warnings.filterwarnings("ignore", ".*to which the wheel leans", PoorFitWarning)
+        fitted = fit_magic_formula(
+            frame,
+            "5.2",
+            nominal_load=plan.nominal_load,
+            unloaded_radius=round(rig.constants.radius, 4),
+            starts=2,
+            loss="linear",
+            together=False,  # a seed keeps its case
+        )
     tire = fitted.model.replace(LONGVL=plan.speed)
     return tire, rms(residual(tire, frame))
 

@@ -16,9 +16,9 @@ import math
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.camber_thrust import camber_thrust
 from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _COMPONENT = {"normal_load": "z", "fx": "x", "fy": "y", "mx": "x", "my": "y", "mz": "z"}

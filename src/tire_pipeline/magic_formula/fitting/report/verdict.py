@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tire_pipeline.camber_thrust import camber_thrust
 from tire_pipeline.channels import ANGLE_CHANNELS, FORCES_OF_MOMENT, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.camber_thrust import FREE_ROLLING, camber_thrust
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.pages.numbers_in_words import in_digits
 
@@ -38,8 +38,6 @@ _OTHER_SIGN = 0.02
 """Share of slips of the other sign up to which a recording has one direction only."""
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
-_FREE_ROLLING = 0.02
-"""Slip ratio up to which a wheel rolls freely."""
 _OF_CAMBER_SIGN = "axes or signs; the data are in SAE axes, or camber has the other sign than in ISO W."
 _SMALL_SLIP = 1e-3
 """rad; either way, for slopes while rolling straight."""
@@ -226,7 +224,7 @@ def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], star
 
 def _away_from_the_lean(points: Mapping[str, np.ndarray], fy: np.ndarray) -> bool:
     """Whether the measured side force points away from the side to which the wheel leans, in ISO W axes."""
-    free = np.abs(points["slip_ratio"]) < _FREE_ROLLING
+    free = np.abs(points["slip_ratio"]) < FREE_ROLLING
     slip, camber, load = (points[name][free] for name in ("slip_angle", "camber", "normal_load"))
     return camber_thrust(slip, camber, load, fy[free]) > 0.0
 

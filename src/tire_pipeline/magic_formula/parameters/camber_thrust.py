@@ -5,25 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 Array = np.ndarray
+FREE_ROLLING = 0.02
+"""Slip ratio up to which a wheel rolls freely."""
 _SMALL_SLIPS = 0.2
 """Slip angles up to this part of the largest: there the force is nearly straight in the slip angle."""
 _LEANS = float(np.radians(0.8))
 """Range of camber, rad, from which its force shows."""
-_APART = 0.5
+_GOES_WITH = 0.5
 """Correlation of camber and slip angle from which the two cannot be told apart: a car that rolls."""
-_LEAST_THRUST = 0.3
+LEAST_THRUST = 0.3
 """Change of Fy over the load per rad. Passenger and racing tires have 0.5 to 3; truck tires about 0.1, of
 either sign."""
-_SURE = 6.0
+_STANDARD_ERRORS = 6.0
 """Standard errors: of the neighbouring rows of a rig several are alike."""
-_MOST_ROWS, _LEAST_ROWS = 1000, 20
+_ROWS_USED, _ROWS_NEEDED = 1000, 20
 
 
 def camber_thrust(slip_angle: Array, camber: Array, normal_load: Array, fy: Array) -> float:
     """Return the change of the side force over the load with camber, 1/rad, at small slip angles.
 
     A wheel is pushed to the side to which it leans (Pacejka 2012, ch. 1). In ISO W axes the number is
-    negative, in SAE axes positive: they have the same camber, and y to the other side.
+    negative, in SAE axes positive: they have the same camber, and y to the other side. In both the force
+    falls with the slip angle; where it rises (adapted SAE axes), nothing is said.
 
     Parameters
     ----------
@@ -36,7 +39,7 @@ def camber_thrust(slip_angle: Array, camber: Array, normal_load: Array, fy: Arra
     -------
     float
         0 where the recording does not show it for sure: one camber only, a camber that goes with the slip
-        angle, or too small a thrust.
+        angle, too small a thrust, or a force that rises with the slip angle.
 
     Examples
     --------
@@ -51,11 +54,11 @@ def camber_thrust(slip_angle: Array, camber: Array, normal_load: Array, fy: Arra
         return 0.0
     good &= np.abs(slip_angle) <= _SMALL_SLIPS * np.quantile(np.abs(slip_angle[good]), 0.99)
     rows = np.flatnonzero(good)
-    rows = rows[:: max(1, rows.size // _MOST_ROWS)]
+    rows = rows[:: max(1, rows.size // _ROWS_USED)]
     slip, lean, share = slip_angle[rows], camber[rows], fy[rows] / load[rows]
-    if rows.size < _LEAST_ROWS or np.ptp(np.quantile(lean, [0.02, 0.98])) < _LEANS or np.ptp(slip) == 0.0:
+    if rows.size < _ROWS_NEEDED or np.ptp(np.quantile(lean, [0.02, 0.98])) < _LEANS or np.ptp(slip) == 0.0:
         return 0.0
-    if abs(np.corrcoef(slip, lean)[0, 1]) > _APART:
+    if abs(np.corrcoef(slip, lean)[0, 1]) > _GOES_WITH:
         return 0.0
     part = load[rows] / np.median(load[rows])
     columns = np.column_stack([lean, np.ones(rows.size), part, slip, slip * part, slip**3])
@@ -63,6 +66,8 @@ def camber_thrust(slip_angle: Array, camber: Array, normal_load: Array, fy: Arra
     found, _, _, _ = np.linalg.lstsq(scaled, share, rcond=None)
     left = share - scaled @ found
     variance = float(left @ left) / (rows.size - columns.shape[1]) * np.linalg.pinv(scaled.T @ scaled)[0, 0]
+    if np.polyfit(slip, share, 1)[0] >= 0.0:
+        return 0.0
     thrust = float(found[0]) / float(np.sqrt(np.mean(lean**2)))
-    sure = abs(found[0]) > _SURE * np.sqrt(variance) and abs(thrust) > _LEAST_THRUST
+    sure = abs(found[0]) > _STANDARD_ERRORS * np.sqrt(variance) and abs(thrust) > LEAST_THRUST
     return thrust if sure else 0.0
