@@ -32,7 +32,7 @@ CHECK = {"pressures": (1.1, 0.9), "loads": (0.75, 1.25)}
 ISO = -1.0
 """Sign of the slip angle: the simulator counts it the other way round."""
 ODD_IN_CAMBER = ("PEY4", "PHY3", "PVY3", "PVY4")
-"""Coefficients that change their sign with the camber's: the simulator counts that the other way round, too."""
+"""Coefficients that change their sign with that of camber, which the simulator counts the other way, too."""
 UNITS = {"time": "s", "slip_angle": "deg", "normal_load": "N", "pressure": "kPa", "speed": "km/h", "fy": "N"}
 TITLES = {"time": "ET", "slip_angle": "SA", "normal_load": "FZ", "pressure": "P", "speed": "V", "fy": "FY"}
 
