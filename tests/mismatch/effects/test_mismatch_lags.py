@@ -21,9 +21,10 @@ def relaxation_alone(sets):
     return [names for names in sets if "relaxation_length" in names and not IN_TIME & names]
 
 
-@pytest.fixture(scope="module")
-def belt():
-    rows = read_recording(shared("recordings/calspan/cornering_part.mat"))
+@pytest.fixture(scope="module", params=["SAE", "ISO"])
+def belt(request):
+    """The flat belt in its own axes, and as its mirror image."""
+    rows = read_recording(shared("recordings/calspan/cornering_part.mat"), axes=request.param)
     flat = rows[(rows["camber"].abs() < 0.005) & (rows["pressure"] < 9e4)].reset_index(drop=True)
     channels = ["slip_angle", "normal_load", "fy"]
     return fit_magic_formula(flat.iloc[::5][channels], unloaded_radius=0.2).model, flat

@@ -31,7 +31,7 @@ OPEN = CHANCE
 LEVEL = 0.5
 """An effect, with its alternatives, is named if it is likelier than not."""
 MOST_ALTERNATIVES = 2
-"""With more names there is no answer."""
+"""More are not listed. There is no answer if only a channel that stays the same tells one of them from those."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ def answered(
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
     as_good = _fit_as_well(case, likelihood, best)
-    sets = _named(probabilities, without, best, hidden, as_good, level)
+    sets = _named(probabilities, without, best, hidden, as_good, level, case.unknown.steady)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
     gains = _gains(case, evidence)
@@ -158,6 +158,7 @@ def _named(
     hidden: frozenset[str],
     as_good: frozenset[Names],
     level: float,
+    steady: frozenset[str],
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with the effects that could replace it.
 
@@ -169,7 +170,10 @@ def _named(
     out: list[tuple[Names, float]] = []
     for name in best:
         taken = {n for names, _ in out for n in names}
-        group = (name, *(n for n in _instead(named, best, name, as_good) if n not in taken))
+        instead = [n for n in _instead(named, best, name, as_good) if n not in taken]
+        group = (name, *instead[:MOST_ALTERNATIVES])
+        if any(told_by(o, n) in steady for o in instead[MOST_ALTERNATIVES:] for n in group):
+            continue  # one would be left out that nothing here tells from a listed one
         sure = sum(p for names, p in named.items() if set(names) & set(group))
         alone = sum(p for names, p in without.items() if set(names) & set(group))
         likelier = sure > level and alone > level * sum(without.values())
@@ -206,11 +210,11 @@ def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
 
 
 def _instead(named: Mapping[Names, float], best: Names, name: str, as_good: frozenset[Names]) -> Names:
-    """Return the likeliest effects that could replace one of a set, at most two."""
+    """Return the effects that could replace one of a set, the likeliest first."""
     swaps = {other: names for names in named if (other := _in_place(names, best, name)) is not None}
     order = sorted(swaps, key=lambda other: -named[swaps[other]])
     close = [o for o in order if swaps[o] in as_good or named[swaps[o]] > OPEN * named[best]]
-    return tuple(close)[:MOST_ALTERNATIVES]
+    return tuple(close)
 
 
 def _in_place(names: Names, best: Names, name: str) -> str | None:
