@@ -31,7 +31,7 @@ OPEN = CHANCE
 LEVEL = 0.5
 """An effect, with its alternatives, is named if it is likelier than not."""
 MOST_ALTERNATIVES = 2
-"""More are not listed. There is no answer if only a channel that stays the same tells one of them from those."""
+"""More are not listed. There is no answer where nothing here tells one of them from a listed one."""
 
 
 @dataclass(frozen=True)
