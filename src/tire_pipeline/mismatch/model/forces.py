@@ -53,6 +53,8 @@ def simulate_moments(data: Data, changes: Sequence[Change], names: Sequence[str]
     dict of ndarray, shape (n,)
         N m.
     """
+    if not changes:
+        return {name: data.simulation.base_moments[name] for name in names}
     state, _ = _at_the_tire(data, changes)
     return data.simulation.moments(state, names)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import MOMENT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import State
 from tire_pipeline.mismatch.effects.shared import first_order
@@ -124,6 +124,13 @@ class BaseSimulation:
         self.relax(state)
         forces = self.forces(state)
         return {name: forces[name] for name in self.recording.outputs}
+
+    @cached_property
+    def base_moments(self) -> dict[str, Array]:
+        """The moments of the simulation as it is, N m."""
+        state = self.as_recorded()
+        self.relax(state)
+        return self.moments(state, MOMENT_CHANNELS)
 
     def driven(self, output: str) -> bool:
         """Whether this force is there and the slips make it move, so that its size can be judged."""
