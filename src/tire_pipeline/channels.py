@@ -24,7 +24,8 @@ INPUT_CHANNELS = (*OPERATING_CHANNELS, "turn_slip")
 TANGENTIAL_FORCES = ("fx", "fy")
 """Forces in the plane of the road, N."""
 
-PLANE_FORCES = (*TANGENTIAL_FORCES, "mz")
+ALIGNING_MOMENT = "mz"
+PLANE_FORCES = (*TANGENTIAL_FORCES, ALIGNING_MOMENT)
 """What acts in the plane of the road: its forces (N) and the moment about its normal (N m)."""
 
 MOMENT_CHANNELS = ("mx", "my", "mz")
@@ -100,6 +101,11 @@ def shown_unit(channel: str, size: float) -> ShownUnit:
     if channel == "normal_load" and abs(size) < LARGEST_LOAD_OF_MODEL_CARS:
         return known._replace(factor=1.0, unit="N")
     return known
+
+
+def unit_of(output: str) -> str:
+    """Return the unit of a force or a moment."""
+    return "N m" if output in MOMENT_CHANNELS else "N"
 
 
 def axis_label(channel: str) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tire_pipeline.channels import unit_of
 from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent, three_digits
 from tire_pipeline.errors import DomainError
@@ -177,7 +178,7 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 
 
 def _row(difference: Difference) -> tuple[Any, ...]:
-    unit = "N m" if difference.output.startswith("m") else "N"
+    unit = unit_of(difference.output)
     rms, largest = difference.rms, difference.largest
     if all(difference.lacking):
         rms = largest = math.nan

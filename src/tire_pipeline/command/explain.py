@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tire_pipeline.channels import unit_of
 from tire_pipeline.command.options import (
     FILE,
     check_target,
@@ -141,7 +142,7 @@ def _errors(report: MismatchReport) -> Grid:
                 name.capitalize(),
                 *map(three_digits, (fit.noise_floor, fit.rms_before, fit.rms_after)),
                 range_of(fit.rms_after_low, fit.rms_after_high),
-                "N m" if name.startswith("m") else "N",
+                unit_of(name),
             )
             for name, fit in report.fit.items()
         ],

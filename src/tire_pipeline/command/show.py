@@ -12,6 +12,7 @@ import click
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish, three_digits
+from tire_pipeline.unit_definitions import DEGREE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,9 +74,10 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     missing = _replaced(model)
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
-    lines += _gaps(model, {figure.name: figure.value for figure in figures})
+    values = {figure.name: figure.value for figure in figures}
+    lines += _gaps(model, values)
     turned = unlike_iso(model.coefficients)
-    turned += [] if turned else _mirrored_camber(model)
+    turned += [] if turned else _mirrored_camber(values["camber stiffness"] / DEGREE / load)
     lines += [f"{said}." for said in turned]
     odd = [said for said in file_warnings(model) if said not in turned]
     held = {f.name for f in figures if f.value == f.value}
@@ -107,13 +109,16 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     return CommandOutcome(file.name, lines, data, page, grids, odd)
 
 
-def _mirrored_camber(model: TireModel) -> list[str]:
-    """Say that camber pushes the tire away from the side to which it leans, by as much as none does."""
-    from tire_pipeline.magic_formula.key_figures import camber_stiffness
+def _mirrored_camber(thrust: float) -> list[str]:
+    """Say that camber pushes the tire away from the side to which it leans, by as much as none does.
+
+    Parameters
+    ----------
+    thrust : float
+        Side force over the load to the side of the lean, 1/rad.
+    """
     from tire_pipeline.magic_formula.parameters.camber_thrust import LEAST_THRUST
 
-    load = model.value("FNOMIN")
-    thrust = camber_stiffness(model, load) / load
     if not thrust < -LEAST_THRUST:
         return []
     return [

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.magic_formula.parameters.camber_thrust import FREE_ROLLING, camber_thrust
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_RATIO
+from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
@@ -28,12 +31,13 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
     frame : DataFrame
         Canonical columns.
     """
-    if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in _OF_TRAIL):
+    columns = _columns(frame, _OF_TRAIL)
+    if not columns:
         return []
-    slip, load, fy, mz = (frame[name].to_numpy(dtype=float) for name in _OF_TRAIL)
+    slip, load, fy, mz = columns
     good = np.isfinite(slip) & np.isfinite(fy) & np.isfinite(mz) & (np.abs(load) > 0.0)
     if "slip_ratio" in frame:
-        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > FREE_ROLLING)
+        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > PURE_SLIP_RATIO)
     if not good.any():
         return []
     good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
@@ -61,10 +65,8 @@ def side_force_away_from_the_lean(frame: pd.DataFrame) -> list[Issue]:
     frame : DataFrame
         Canonical columns.
     """
-    if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in _OF_LEAN):
-        return []
-    thrust = camber_thrust(*(frame[name].to_numpy(dtype=float) for name in _OF_LEAN))
-    if thrust <= 0.0:
+    columns = _columns(frame, _OF_LEAN)
+    if not columns or camber_thrust(*columns) <= 0.0:
         return []
     return [
         Issue(
@@ -75,6 +77,13 @@ def side_force_away_from_the_lean(frame: pd.DataFrame) -> list[Issue]:
             "SAE), or its camber has the other sign",
         )
     ]
+
+
+def _columns(frame: pd.DataFrame, names: Sequence[str]) -> list[np.ndarray]:
+    """Return some columns; nothing where one of them is missing or holds no numbers."""
+    if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in names):
+        return []
+    return [frame[name].to_numpy(dtype=float) for name in names]
 
 
 def _slope(x: np.ndarray, y: np.ndarray) -> float:

@@ -25,7 +25,7 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.baselines import ON_RESIDUAL
 from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, OpenCase, draw_open_case
-from tire_pipeline.concealed.unnamed.judge import judged, oracle_of, removed, squared
+from tire_pipeline.concealed.unnamed.judge import judged, oracle_of, removed, squared, worse
 from tire_pipeline.concealed.unnamed.open_world_table import table
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.tasks import one_thread
@@ -37,7 +37,6 @@ ROWS = 4000
 ALONE, TWO, BESIDE = "alone", "two", "beside a named one"
 PLAN = (ALONE, TWO, ALONE, BESIDE)
 """How each round of all mechanisms has them; then it begins again."""
-_BELOW_ONE = 1e-9
 _MOST_DRAWS = 100
 
 
@@ -91,7 +90,7 @@ def run(half: str, number: int) -> dict[str, Any]:
     for name, fitted in ON_RESIDUAL.items():
         after = squared(case, fitted(case.tire, case.recording)(case.held_out))
         row[f"removed_{name}"] = removed(before, after, oracle)[0]
-        row[f"worse_{name}"] = any(after[f] > before[f] * (1.0 + _BELOW_ONE) for f in after)
+        row[f"worse_{name}"] = worse(before, after)
     return row
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 Array = np.ndarray
-FREE_ROLLING = 0.02
-"""Slip ratio up to which a wheel rolls freely."""
 _SMALL_SLIPS = 0.2
 """Slip angles up to this part of the largest: there the force is nearly straight in the slip angle."""
 _LEANS = float(np.radians(0.8))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
+from tire_pipeline.channels import ALIGNING_MOMENT, INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
 from tire_pipeline.mismatch.corrected.holes import around_holes
@@ -31,7 +31,7 @@ from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
 
 Array = np.ndarray
 

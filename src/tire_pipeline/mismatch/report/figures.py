@@ -11,9 +11,9 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
-from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, TANGENTIAL_FORCES, axis_label
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, TANGENTIAL_FORCES, axis_label, unit_of
 from tire_pipeline.mismatch.report.contents import ReportContents
-from tire_pipeline.mismatch.report.words import short_equation, unit_of
+from tire_pipeline.mismatch.report.words import short_equation
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -98,7 +98,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
     slip = _slip(report, output)
-    name = _slip_of(output)
+    name = SLIP_OF_FORCE[output]
     factor = SHOWN_UNITS[name].factor
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
@@ -129,9 +129,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
             ax.set_xlabel(axis_label(name))
             ax.grid(False)
         axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
-        figure.colorbar(
-            mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated ({unit_of(output)})"
-        )
+        figure.colorbar(mesh, ax=axes, label=_difference(output))
     return figure
 
 
@@ -146,12 +144,8 @@ def _difference(output: str) -> str:
     return f"{output.capitalize()} recorded - simulated ({unit_of(output)})"
 
 
-def _slip_of(output: str) -> str:
-    return SLIP_OF_FORCE.get(output, "slip_angle")
-
-
 def _slip(report: ReportContents, output: str) -> Any:
-    return report.series[_slip_of(output)]
+    return report.series[SLIP_OF_FORCE[output]]
 
 
 def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:

@@ -11,6 +11,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from tire_pipeline.channels import unit_of
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.model.channels import CHANCE
@@ -25,7 +26,6 @@ from tire_pipeline.mismatch.report.words import (
     interval,
     same_decimals,
     short_equation,
-    unit_of,
 )
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import ALIGNING_MOMENT
 from tire_pipeline.magic_formula.fitting.report.verdict import MOST_LEFT
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
@@ -17,7 +18,8 @@ from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import partly, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
+from tire_pipeline.mismatch.unnamed_physics.problems.aligning_moment import problem_of_moment
 from tire_pipeline.mismatch.unnamed_physics.search import (
     more_than_usual,
     unnamed_moment,
@@ -26,7 +28,7 @@ from tire_pipeline.mismatch.unnamed_physics.search import (
 from tire_pipeline.progress import under_way
 
 Array = np.ndarray
-SOMETHING_LEFT = ("unexplained", "partly explained")
+_SOMETHING_LEFT = ("unexplained", "partly explained")
 _SETTLE_FIRST = "none was looked for, because the recording has to be settled first"
 _AS_USUAL = "none was looked for, because the named effects leave no more than a fitted formula usually does"
 _ENDS_HERE = "an equation of the clock or the way rolled ends with its recording, and settles nothing"
@@ -120,15 +122,12 @@ def put_in_equations(
     """
     if stopped:
         return UnnamedReport(None, _SETTLE_FIRST, looked_for=False), model
-    plainly = verdict not in (*SOMETHING_LEFT, "undecided")
+    plainly = verdict not in (*_SOMETHING_LEFT, "undecided")
     found = UnnamedReport(None, _AS_USUAL, looked_for=False)
     with under_way("looking for an equation of the residual"):
         if not (named and plainly and not more_than_usual(analysis)):
             found = equation or unnamed_physics(analysis, plainly=plainly)
-        of_moment = None
-        if moment is not None and not moment.other_sign:
-            spared = ALIGNING_MOMENT in model.as_filed
-            of_moment = unnamed_moment(analysis, model.changes, as_filed=spared, plainly=not moment.far_off)
+        of_moment = None if moment is None else _equation_of_moment(analysis, model, moment)
     if verdict == "undecided" and found.physics is not None and found.physics.of_one_recording:
         found = found.refused(_ENDS_HERE)
     found, put_in = never_worse(found, model, recording)
@@ -139,6 +138,16 @@ def put_in_equations(
     of_moment, with_moment = never_worse(of_moment, model, recording)
     both = found.joined(of_moment)
     return both, with_moment if found.physics is None else replace(put_in, unnamed=both.physics)
+
+
+def _equation_of_moment(
+    analysis: Analysis, model: CorrectedModel, moment: MomentError
+) -> UnnamedReport | None:
+    """Look for an equation of the aligning moment; None if its sign is asked for, or its error is usual."""
+    if moment.other_sign:
+        return None
+    problem = problem_of_moment(analysis, model.changes, as_filed=ALIGNING_MOMENT in model.as_filed)
+    return None if problem is None else unnamed_moment(problem, plainly=not moment.far_off)
 
 
 def moment_series(

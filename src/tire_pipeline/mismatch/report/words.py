@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from tire_pipeline.channels import MOMENT_CHANNELS, shown_unit
+from tire_pipeline.channels import shown_unit
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.effects import Effect, catalogue
 from tire_pipeline.pages.numbers_in_words import in_digits
@@ -110,11 +110,6 @@ def short_equation(text: str) -> str:
     '(-0.7943)*fy_slip*(lag(s, 0.01449) - s)'
     """
     return _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", text)
-
-
-def unit_of(output: str) -> str:
-    """Return the unit of a force or a moment."""
-    return "N m" if output in MOMENT_CHANNELS else "N"
 
 
 def newtons(value: float) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import PLANE_FORCES
+from tire_pipeline.channels import ALIGNING_MOMENT, PLANE_FORCES
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
     LONGEST,
     EquationError,
@@ -17,7 +17,6 @@ from tire_pipeline.mismatch.unnamed_physics.language.grammar import (
     parse,
 )
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import (
-    ALIGNING_MOMENT,
     CHANNEL,
     MEANING,
     NominalValues,
@@ -73,8 +72,13 @@ class UnnamedPhysics:
     @property
     def title(self) -> str:
         """``unnamed: depends on ...``."""
+        return f"unnamed: depends on {self.drivers_in_words}"
+
+    @property
+    def drivers_in_words(self) -> str:
+        """What it depends on; where that is no channel, the forces."""
         itself = "nothing but the forces" if self.of_moment else "the force itself"
-        return f"unnamed: depends on {', '.join(self.depends_on) or itself}"
+        return ", ".join(self.depends_on) or itself
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import ALIGNING_MOMENT, FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.channels import CLASSES, one_sided, span, white_noise
-from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
@@ -33,9 +32,8 @@ from tire_pipeline.mismatch.unnamed_physics.found import (
 )
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import parse
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, CHANNEL, held_within
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL, held_within
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problems.aligning_moment import of_moment
 from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import USUAL_MISFIT, coarsely, problem_of
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained, by_condition, of_force
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
@@ -77,31 +75,17 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
     return find(problem, coarsely(problem, analysis))
 
 
-def unnamed_moment(
-    analysis: Analysis, changes: tuple[Change, ...], *, as_filed: bool, plainly: bool
-) -> UnnamedReport | None:
+def unnamed_moment(problem: Unexplained, *, plainly: bool) -> UnnamedReport:
     """Look for an equation of the aligning moment's error, and prove it.
 
     Parameters
     ----------
-    analysis : Analysis
-        Of a recording with the moment.
-    changes : tuple of (name, parameters)
-        Effects in the corrected model.
-    as_filed : bool
-        Whether they leave the moment as it was.
+    problem : Unexplained
+        Of the moment.
     plainly : bool
         Ask for more, because the error might be the formula's usual misfit: the terms have to predict
         operating conditions that were not seen, and to remove most of the squared error there.
-
-    Returns
-    -------
-    UnnamedReport or None
-        None where no more is left than noise and the misfit of a formula.
     """
-    problem = of_moment(analysis, changes, as_filed=as_filed)
-    if problem is None:
-        return None
     found = find(by_condition(problem) if plainly else problem)
     before, after, _ = found.unseen.get(ALIGNING_MOMENT, (1.0, 1.0, 1.0))
     if plainly and after**2 > _MISFIT_IS_NOT * before**2:

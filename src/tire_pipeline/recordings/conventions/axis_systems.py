@@ -72,7 +72,7 @@ def to_iso_w(
     systems = {c: _system(origin[c]) for c in _COMPONENT if c in frame}
     if "C" in systems.values():
         _c_to_h(frame, systems, notes, conversions)
-    mirrored = _flip_load(frame, axes, notes if not by_camber else [], conversions)
+    mirrored = _flip_load(frame, notes, conversions, ask=axes == "ISO" and not by_camber)
     if {"H", "C"} & {s for c, s in systems.items() if c in MOMENT_CHANNELS}:
         _moments_to_contact(frame, systems, constants, notes, conversions)
     bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
@@ -134,8 +134,11 @@ def _c_to_h(frame: pd.DataFrame, systems: dict[str, str], notes: list[str], conv
             notes.append(f"{here[0]} is in C axes and its partner is missing: not turned")
 
 
-def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: list[str]) -> bool:
-    """Mirror a load that is negative throughout; return whether that was done."""
+def _flip_load(frame: pd.DataFrame, notes: list[str], conversions: list[str], *, ask: bool) -> bool:
+    """Mirror a load that is negative throughout; return whether that was done.
+
+    ``ask`` says whether the axes stay open then.
+    """
     if "normal_load" not in frame:
         return False
     load = frame["normal_load"].to_numpy()
@@ -146,7 +149,7 @@ def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: li
         return False
     frame["normal_load"] = -load
     conversions.append("normal_load: negative throughout, mirrored (compression is positive)")
-    if axes == "ISO":
+    if ask:
         notes.append(
             "Fz is negative throughout, as in SAE axes; only Fz was mirrored. If the file is in "
             'SAE axes, read it with axes="SAE" (on the command line --axes SAE)'

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import MOMENT_CHANNELS, SHOWN_UNITS, SLIP_OF_FORCE, axis_label
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label, unit_of
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula.fitting.report.statistics import LOAD_STEP
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
@@ -73,7 +73,7 @@ def _spread(part: pd.DataFrame, slip: str) -> bool:
 
 def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
     slip, name = SLIP_OF_FORCE[output], output.capitalize()
-    factor, unit = SHOWN_UNITS[slip].factor, "N m" if output in MOMENT_CHANNELS else "N"
+    factor, unit = SHOWN_UNITS[slip].factor, unit_of(output)
     step = LOAD_STEP * model.value("FNOMIN")
     group = np.round(part["normal_load"] / step)
     largest = group.value_counts().index[:_MOST_LOADS]

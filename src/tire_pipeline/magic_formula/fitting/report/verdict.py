@@ -7,10 +7,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS, FORCES_OF_MOMENT, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.channels import (
+    ALIGNING_MOMENT,
+    ANGLE_CHANNELS,
+    FORCES_OF_MOMENT,
+    SLIP_OF_FORCE,
+    TANGENTIAL_FORCES,
+)
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.magic_formula.parameters.camber_thrust import FREE_ROLLING, camber_thrust
+from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.pages.numbers_in_words import in_digits
 
@@ -39,6 +45,7 @@ _OTHER_SIGN = 0.02
 _FROM_ZERO = 0.3
 """The small slips, over the large ones, up to which the slip stiffness shows."""
 _OF_CAMBER_SIGN = "axes or signs; the data are in SAE axes, or camber has the other sign than in ISO W."
+_OF_TRAIL_SIGN = "axes or signs; beside fy, mz over slip_angle has the other sign than a tire's."
 _SMALL_SLIP = 1e-3
 """rad; either way, for slopes while rolling straight."""
 _SLIP_BINS = 20
@@ -117,21 +124,18 @@ def poor_outputs(
             _falls(model, output, points, start) or _turned(output, seen, start)
         ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
-        away = output == "fy" and _away_from_the_lean(points, forces[output])
-        if away:
+        of_sign = ""
+        if output == "fy" and _away_from_the_lean(points, forces[output]):
             wrong.append("with camber, the side force points away from the side to which the wheel leans")
-        if output == "mz" and _negative_trail(model, seen):
+            of_sign = _OF_CAMBER_SIGN
+        if output == ALIGNING_MOMENT and _negative_trail(model, seen):
             wrong.append("the pneumatic trail is negative: Mz turns the wheel out of its run")
+            of_sign = _OF_TRAIL_SIGN
         units, levels = _units(output, points, seen) or inputs, _levels(model, output, seen, at_bound)
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = (
-                units
-                or (_OF_CAMBER_SIGN if away else "")
-                or _signs(model, output, seen, start)
-                or _without_force(output, points, forces)
-            )
+            reason = units or of_sign or _signs(output, seen, start) or _without_force(output, points, forces)
             reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
@@ -224,7 +228,7 @@ def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], star
 
 def _away_from_the_lean(points: Mapping[str, np.ndarray], fy: np.ndarray) -> bool:
     """Whether the measured side force points away from the side to which the wheel leans, in ISO W axes."""
-    free = np.abs(points["slip_ratio"]) < FREE_ROLLING
+    free = np.abs(points["slip_ratio"]) < PURE_SLIP["slip_ratio"]
     slip, camber, load = (points[name][free] for name in ("slip_angle", "camber", "normal_load"))
     return camber_thrust(slip, camber, load, fy[free]) > 0.0
 
@@ -264,11 +268,9 @@ def _friction(seen: _Measured) -> float:
     return float(np.quantile(np.abs(seen.force) / seen.load, 0.98)) if seen.force.size else 0.0
 
 
-def _signs(model: TireModel, output: str, seen: _Measured, start: TireModel | None) -> str:
+def _signs(output: str, seen: _Measured, start: TireModel | None) -> str:
     """Return what is wrong with the signs of a poor fit, or nothing."""
     name = SLIP_OF_FORCE.get(output, "slip_angle")
-    if output == "mz" and _negative_trail(model, seen):
-        return "axes or signs; beside fy, mz over slip_angle has the other sign than a tire's."
     if output in TANGENTIAL_FORCES and _turned(output, seen, start):
         whose = "the start model's" if output == "fy" else "a tire's (braking: negative slip_ratio and fx)"
         return f"axes or signs; {output} over {name} has the other sign than {whose}."

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tire_pipeline.channels import ALIGNING_MOMENT, unit_of
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.report.words import newtons, unit_of
+from tire_pipeline.mismatch.report.words import newtons
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT
 
 
 def on_unnamed(found: UnnamedReport | None, verdict: str, rivals: Sequence[Sequence[str]] = ()) -> str:
@@ -67,8 +67,7 @@ def _resembles(found: UnnamedReport, rivals: Sequence[Sequence[str]]) -> str:
 
 def _drivers(found: UnnamedReport) -> str:
     assert found.physics is not None
-    itself = "nothing but the forces" if found.physics.of_moment else "the force itself"
-    return ", ".join(found.physics.depends_on) or itself
+    return found.physics.drivers_in_words
 
 
 def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float, float]]:

@@ -6,13 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import ALIGNING_MOMENT, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.report.contents import Head
 from tire_pipeline.mismatch.report.unnamed_part import MomentError
 from tire_pipeline.mismatch.report.words import newtons
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT
 
 _LOOK_AT = (
     "Next, check the unit and the sign of the recorded Mz, the point about which it is taken, and whether "

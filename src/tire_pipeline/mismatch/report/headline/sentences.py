@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.channels import PLANE_FORCES, TANGENTIAL_FORCES
+from tire_pipeline.channels import PLANE_FORCES, TANGENTIAL_FORCES, unit_of
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import lengths_in_words
 from tire_pipeline.mismatch.model.residual import rms
@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.report.headline.spots import (
     spot_of,
     stretches_of,
 )
-from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place, unit_of
+from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 _RIVALS_LISTED = 3

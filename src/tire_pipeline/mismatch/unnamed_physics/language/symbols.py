@@ -51,7 +51,6 @@ CHANNEL = {
     "t": "time",
 }
 """Symbol -> the channel that it is of."""
-ALIGNING_MOMENT = "mz"
 
 
 def held_within(symbol: str, x: Array) -> float:

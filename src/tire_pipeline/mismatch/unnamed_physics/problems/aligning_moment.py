@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import ALIGNING_MOMENT, SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import COEFFICIENT_PART
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.channels import largest, white_noise
 from tire_pipeline.mismatch.model.forces import Change, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import ALIGNING_MOMENT, table_of
+from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
 from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import along_sweeps, what_moves
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained
 
@@ -21,7 +21,9 @@ USUAL_MISFIT_OF_MOMENT = 0.03
 """What a fitted formula leaves of the aligning moment, RMS over the largest: tydex 1%, calspan 6 to 7%."""
 
 
-def of_moment(analysis: Analysis, changes: tuple[Change, ...], *, as_filed: bool) -> Unexplained | None:
+def problem_of_moment(
+    analysis: Analysis, changes: tuple[Change, ...], *, as_filed: bool
+) -> Unexplained | None:
     """Return the residual of the aligning moment, or None where noise and misfit are usually as large.
 
     The misfit counts as noise that changes along a sweep, as for the forces where they are weighed coarsely,
