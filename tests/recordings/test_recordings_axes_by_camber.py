@@ -29,6 +29,7 @@ def test_a_negative_load_and_camber_tell_the_axes(tmp_path, axes):
     assert recording.attrs["axes_unclear"] == ""
     assert (recording["normal_load"] > 0.0).all()
     assert not any("read it with axes" in note for note in recording.attrs["notes"])
+    assert not any("ISO W assumed" in note for note in recording.attrs["notes"])
 
 
 def test_without_camber_the_axes_stay_open(tmp_path):

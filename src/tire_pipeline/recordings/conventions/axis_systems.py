@@ -76,7 +76,7 @@ def to_iso_w(
     if {"H", "C"} & {s for c, s in systems.items() if c in MOMENT_CHANNELS}:
         _moments_to_contact(frame, systems, constants, notes, conversions)
     bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
-    if bare and axes == "ISO" and not told:
+    if bare and axes == "ISO" and not (told or by_camber):
         notes.append(f"{', '.join(bare)}: no axis system given; ISO W assumed")
     if told:
         return f"{axes} axes, as stated", ""
