@@ -76,6 +76,19 @@ def test_no_random_start_leaves_clearly_less(subsets, number, forces):
     assert max(found.values()) <= 1.05, (part.what, found)
 
 
+def test_the_rate_of_a_recording_does_not_decide_how_well_it_is_fitted(subsets):
+    """At 50 Hz one minimum came out four times before a better one, and 9% more was left."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(BENCHMARKS))
+        import flat_belt_hidden
+    shares = []
+    for rate in (100, 50, 20, 10):
+        table = flat_belt_hidden.sweeps(rate)
+        plain = table[~table["low"] & ~table["leaning"]]
+        shares.append(fit_magic_formula(plain[["slip_angle", "normal_load", "fy"]]).relative_rms["fy"])
+    assert max(shares) <= 1.05 * min(shares)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(("number", "forces"), [(2, ("fy", "mz")), (3, ("fx", "fy")), (5, ("fy",))])
 def test_random_starts_made_now_leave_no_less_than_the_stored_ones(subsets, number, forces):

@@ -22,8 +22,6 @@ _GO_ON = 3
 """Minima that go on to more points."""
 _EQUAL = 0.003
 """Relative difference in misfit up to which two searches have found the same minimum."""
-_OFTEN = 4
-"""How often the least misfit must be found before no more starts are tried."""
 _PULLS = (
     *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
     *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
@@ -51,8 +49,8 @@ def least(
 ) -> np.ndarray:
     """Return the values with the least RMS residual.
 
-    Searches use few points until they have found the least misfit often enough. The best minima are refined
-    on more points, and the best of these on all points.
+    All starts are searched on few points. The best minima are refined on more points, and the best of these
+    on all points.
 
     Parameters
     ----------
@@ -74,19 +72,12 @@ def least(
         for start in found:
             ends.append(quick(part, bounds, start, steps=steps, tolerance=tolerance))
             left.append(part.left(ends[-1]))
-            if number == 0 and _often(left):
-                break
         kept: list[int] = []
         for i in np.argsort(left):
             if all(left[i] > (1.0 + _EQUAL) * left[j] for j in kept):
                 kept.append(int(i))
         found = [ends[i] for i in kept[: max(_GO_ON - number, 1)]]
     return min([*found, *starts], key=problem.left)
-
-
-def _often(left: Sequence[float]) -> bool:
-    """Return whether the least of the misfits so far has come out often enough."""
-    return bool(np.sum(np.asarray(left) <= (1.0 + _EQUAL) * min(left)) >= _OFTEN and np.isfinite(min(left)))
 
 
 def most_typical(
