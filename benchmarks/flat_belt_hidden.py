@@ -63,7 +63,7 @@ class Row:
 @cache
 def sweeps(rate: int) -> pd.DataFrame:
     """Return all sweeps at a rate (Hz), neighbours averaged, with ``load``, ``low``, ``leaning``."""
-    whole = read_recording(FILE, axes="ISO")[[*CHANNELS, "tread_temperature"]]
+    whole = read_recording(FILE, axes="SAE")[[*CHANNELS, "tread_temperature"]]
     run = np.r_[0, np.cumsum(np.diff(whole["time"]) > 0.5)]
     count = 100 // rate
     parts = []

@@ -272,7 +272,7 @@ class UnnamedReport:
     better, sweeps : int
         Sweeps that it makes better, of all.
     p_value : float
-        One-sided t test over sweeps, of the force that is least sure.
+        Test over sweeps, of the force that is least sure.
     ideas : list of Idea
     instead_of : tuple of str
         Effects whose names it replaces: it leaves less on unseen sweeps than they do.

@@ -25,6 +25,8 @@ _LEAST_GONE = 0.03
 _LEVEL_OF_PROOF = CHANCE / 9.0
 """Of the test over sweeps, of which a force has nine: two views of all forces and one of it alone, each with
 one term, two and three."""
+_DRAWS = round(CHANCE**-3)
+"""Of signs: with so many a chance at the level of proof is known to a fifth of itself."""
 _NEAR_MOST = 0.95
 
 
@@ -116,7 +118,7 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
 def surely_less(problem: Unexplained, before: Mapping[str, Array], after: Mapping[str, Array]) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
-    Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps. A gain that a few
+    Surely: the mean gain of a sweep is above zero by a test over the sweeps. A gain that a few
     sweeps make and others lose is no gain elsewhere. And the gain is as large a part of the squared mismatch
     as an equation has to remove at all: what says the same in another form differs surely, but by little.
 
@@ -136,7 +138,12 @@ def surely_less(problem: Unexplained, before: Mapping[str, Array], after: Mappin
 
 
 def chance_of_no_gain(gain: Array) -> float:
-    """Return the chance of a mean gain as large where there is none: one-sided t test over sweeps.
+    """Return the chance of a mean gain as large where there is none.
+
+    Where an equation does nothing, each sweep is as likely to become worse as better: the chance is the share
+    of all signs of the gains whose sum is as large (Fisher's randomisation test, *The Design of Experiments*,
+    1935). A few sweeps with large gains do not hide that nearly all of them gain. Too few sweeps have too few
+    signs; there a one-sided t test serves.
 
     Parameters
     ----------
@@ -145,6 +152,14 @@ def chance_of_no_gain(gain: Array) -> float:
     """
     if gain.size < 2:
         return 1.0
+    if 2.0**-gain.size > _LEVEL_OF_PROOF:
+        return _chance_by_t(gain)
+    signs = np.random.default_rng(0).choice((-1.0, 1.0), (_DRAWS, gain.size))
+    as_large = signs @ gain >= gain.sum() - np.finfo(float).eps * np.abs(gain).sum() * gain.size
+    return float((1 + as_large.sum()) / (1 + _DRAWS))
+
+
+def _chance_by_t(gain: Array) -> float:
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
     if error == 0.0:
         return 0.0 if gain.mean() > 0.0 else 1.0
