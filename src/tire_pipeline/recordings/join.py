@@ -173,7 +173,7 @@ def _one_axis_system(recordings: Mapping[str, pd.DataFrame]) -> None:
             raise RecordingError(
                 f"a positive {slip} gives a positive {force} in {signs[1.0]}, a negative in {signs[-1.0]}",
                 where=force,
-                todo='the axes differ: read one of them with axes="SAE", or leave it out',
+                todo=f"turn {slip} or {force} at its source (axes SAE turn both), or leave one out",
             )
 
 
