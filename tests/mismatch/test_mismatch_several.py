@@ -10,8 +10,8 @@ from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
+from tire_pipeline.mismatch.corrected.apart import apart, in_words
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.proof.apart import apart, in_words
 from tire_pipeline.mismatch.recording.each_run import check_conventions
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.headline.sentences import on_each
