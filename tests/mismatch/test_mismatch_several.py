@@ -98,7 +98,7 @@ def test_each_recording_has_its_errors_and_one_that_gets_worse_is_named(tire, re
 def test_a_copy_is_refused(tire, record):
     one = record(1).iloc[:1500]
     later = one.iloc[300:].assign(time=one["time"].iloc[300:] + 100.0)
-    for copy in (one.copy(), later):
+    for copy in (one.copy(), later, one.iloc[:8]):
         with pytest.raises(RecordingError, match=r"b: .* samples are in a, too"):
             explain_recordings(tire, {"a": one, "b": copy}, held_out="b")
 

@@ -20,7 +20,6 @@ from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.exact import repair
 from tire_pipeline.mismatch.recording.prepare import whole_rows
 from tire_pipeline.mismatch.recording.usable import drives, judged, leave_out_still_slip
-from tire_pipeline.recordings.whole_rows import LEAST_POINTS
 
 _COPIED = 0.5
 """Share of the rows of a recording that another one holds to the last digit, from which it is a copy."""
@@ -52,7 +51,7 @@ def check_copies(recordings: Mapping[str, pd.DataFrame]) -> None:
         rows_a, rows_b = (pd.util.hash_pandas_object(f[names].dropna(), index=False) for f in (a, b))
         smaller, copy, of = (rows_a, one, two) if len(rows_a) < len(rows_b) else (rows_b, two, one)
         common = smaller.isin(rows_a if smaller is rows_b else rows_b)
-        if len(smaller) >= LEAST_POINTS and common.mean() > _COPIED:
+        if len(smaller) and common.mean() > _COPIED:
             raise RecordingError(
                 f"{int(common.sum())} of {len(smaller)} samples are in {of}, too, to the last digit",
                 where=copy,
@@ -76,7 +75,7 @@ def check_conventions(tire: Any, recordings: Mapping[str, pd.DataFrame]) -> None
     RecordingError
         Two agree with the model only by different factors.
     """
-    each = {name: _Judged.of(tire, frame) for name, frame in recordings.items()}
+    each = {name: _OwnConventions.of(tire, frame) for name, frame in recordings.items()}
     for (one, first), (two, second) in combinations(each.items(), 2):
         apart = first.other_units(second) or first.other_signs(second)
         if not apart:
@@ -99,7 +98,7 @@ def _what_to_do(name: str, apart: Iterable[str], factors: Mapping[str, float]) -
 
 
 @dataclass(frozen=True)
-class _Judged:
+class _OwnConventions:
     """What the model says about units and signs of one recording.
 
     Parameters
@@ -123,7 +122,7 @@ class _Judged:
     sure: bool
 
     @classmethod
-    def of(cls, tire: Any, recording: pd.DataFrame) -> _Judged:
+    def of(cls, tire: Any, recording: pd.DataFrame) -> _OwnConventions:
         """Judge a recording; nothing is found in one that is too short."""
         try:
             arrays, time = whole_rows(recording)
@@ -137,14 +136,14 @@ class _Judged:
         tells = any(d.works and d.varies for d in judged(drives(tire, arrays, time)))
         return cls(exact, factors, frozenset(arrays), tells, excludes_sae(some, partial(forces_at, tire)))
 
-    def other_units(self, other: _Judged) -> list[str]:
+    def other_units(self, other: _OwnConventions) -> list[str]:
         """Return the channels that another recording has in another unit, or the load with another sign."""
         both = self.channels & other.channels
         told = both if self.tells and other.tells else both & _BY_VALUE
         ratios = {n: self.factors.get(n, 1.0) / other.factors.get(n, 1.0) for n in told}
         return [n for n, r in ratios.items() if not np.isclose(r if n == "normal_load" else abs(r), 1.0)]
 
-    def other_signs(self, other: _Judged) -> list[str]:
+    def other_signs(self, other: _OwnConventions) -> list[str]:
         """Return the channels that are turned here or there, but not in both."""
         turned, there = (
             {n for n, f in each.factors.items() if f < 0.0 and n != "normal_load"} for each in (self, other)
