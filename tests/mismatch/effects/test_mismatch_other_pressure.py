@@ -42,3 +42,19 @@ def test_a_file_without_a_pressure_says_nothing_of_another_one(tire, softer):
     data = prepare(tire, softer).data
     assert data.nominal.pressure_of_file is None
     assert not data.nominal.off_pressure
+
+
+def test_the_pressure_at_which_the_model_is_right_does_not_go_by_the_order_of_the_runs(tire, record):
+    """Three runs at 2, 2.5 and 3 bar: only the most common and the first were tried, whichever came first."""
+    run = record().iloc[:600]
+    found = set()
+    for order in ((2.5e5, 2.0e5, 3.0e5), (3.0e5, 2.5e5, 2.0e5), (2.0e5, 3.0e5, 2.5e5)):
+        nominal = prepare(tire, run.assign(pressure=np.repeat(order, 200) + run["speed"])).data.nominal
+        found.add(tuple(sorted(round(level, -4) for level in nominal.pressure_levels)))
+    assert found == {(2.0e5, 2.5e5, 3.0e5)}
+
+
+def test_a_pressure_that_drifts_has_no_levels(tire, record):
+    run = record().iloc[:600]
+    drifting = run.assign(pressure=np.linspace(2.0e5, 2.6e5, 600))
+    assert len(prepare(tire, drifting).data.nominal.pressure_levels) == 2
