@@ -181,8 +181,8 @@ def test_no_corrected_file_is_written_while_recordings_differ(tire, record, tmp_
     runs["c"] = runs["c"].assign(fy=1.1 * runs["c"]["fy"])
     report = explain_recordings(tire, runs, explainer=FEW)
     assert report.stated_verdict in ("unexplained", f"{report.verdict}, recordings differ")
-    assert "c differs from the other recordings, as if its Fy were" in report.summary
-    with pytest.raises(RecordingError, match="nothing corrected is written: c differs"):
+    assert "he recording c differs from the others, as if its Fy were" in report.summary
+    with pytest.raises(RecordingError, match="nothing corrected is written: the recording c differs"):
         report.corrected.to_tir(tmp_path / "corrected.tir")
 
 

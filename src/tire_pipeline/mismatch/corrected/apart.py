@@ -124,9 +124,7 @@ def in_words(each: Apart) -> str:
     force, slip = each.output.capitalize(), SLIP_OF_FORCE[each.output]
     sizes = f"{each.size:.0f} N RMS of {force}; all that is left in the others is {each.others:.0f} N"
     if not each.kind:
-        return (
-            f"{each.recording} differs from the other recordings, not as a gain or an offset would ({sizes})"
-        )
+        return f"the recording {each.recording} differs from the others, not as a gain or an offset would ({sizes})"
     what = f"its {force} were {abs(each.value):.1%} {'larger' if each.value > 0.0 else 'smaller'}"
     if each.kind == "slip":
         off = abs(each.value)
@@ -135,4 +133,4 @@ def in_words(each: Apart) -> str:
         what = f"its {slip.replace('_', ' ')} were recorded {size} too {too}"
     elif each.kind == "offset":
         what = f"its {force} had an offset of {each.value:+.0f} N"
-    return f"{each.recording} differs from the other recordings, as if {what} ({sizes})"
+    return f"the recording {each.recording} differs from the others, as if {what} ({sizes})"

@@ -143,7 +143,7 @@ class NominalConditions:
             return [nominal]
         pressure = self.recording.smooth("pressure")
         least, found = least_spread("pressure", pressure), [nominal]
-        for level in (*levels(pressure, least), float(pressure[0])):
+        for level in (*levels(self.recording.channels["pressure"], least), float(pressure[0])):
             if all(abs(level - other) > least for other in found):
                 found.append(level)
         return found
