@@ -124,7 +124,7 @@ def in_words(each: Apart) -> str:
     force, slip = each.output.capitalize(), SLIP_OF_FORCE[each.output]
     sizes = f"{each.size:.0f} N RMS of {force}; all that is left in the others is {each.others:.0f} N"
     if not each.kind:
-        return f"the recording {each.recording} differs from the others, not as a gain or an offset would ({sizes})"
+        return f"the recording {each.recording} differs from the others, as no gain or offset would ({sizes})"
     what = f"its {force} were {abs(each.value):.1%} {'larger' if each.value > 0.0 else 'smaller'}"
     if each.kind == "slip":
         off = abs(each.value)
