@@ -47,6 +47,24 @@ def test_a_held_out_recording_need_not_be_among_the_explained(folder):
     assert f"no UNLOADED_RADIUS, and {ASSUMED_RADIUS} m is taken for it" in " ".join(text.split())
 
 
+def test_a_file_is_itself_however_its_path_is_written(folder):
+    """Given by another path, the file to hold out was explained, too."""
+    for seed, name in enumerate(("one.csv", "two.csv")):
+        record(name, seed=seed, friction=0.88, seconds=45.0)
+    (folder / "more").mkdir()
+    record("more/two.csv", seed=7, friction=0.88, seconds=45.0)
+    held_out = str(folder.resolve() / "two.csv")
+    result = told("explain", "a.tir", "one.csv", "two.csv", "--hold-out", held_out, "--no-page", *FEW)
+    assert result["recordings"] == ["one.csv"]
+    assert result["held_out"]["recording"] == "two.csv"
+    twice = run("explain", "a.tir", "one.csv", str(folder.resolve() / "one.csv"), "--no-page", code=2)
+    assert "this file is given twice" in twice.stderr
+    unclear = run(
+        "explain", "a.tir", "one.csv", "./more/../more/two.csv", "more/two.csv", "--no-page", code=2
+    )
+    assert "this file is given twice" in unclear.stderr
+
+
 def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
     record("run.csv", seconds=30.0)
     wrong = pd.read_csv("run.csv")

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
+from tire_pipeline.mismatch.corrected.apart import apart, in_words
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.recording.each_run import check_conventions
+from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.headline.sentences import on_each
 from tire_pipeline.mismatch.several import predict_held_out
+from tire_pipeline.recordings import join_recordings
+from tire_pipeline.unit_definitions import DEGREE, POUND_FORCE
 
 FEW = Explainer(without=all_but("friction_scale", "stiffness_scale", "force_offset"))
 """What is named does not matter here: few effects are weighed."""
@@ -68,6 +77,113 @@ def test_a_name_that_is_not_there_and_nothing_left_are_errors(tire, record):
         explain_recordings(tire, {"a": one, "b": one}, held_out="x")
     with pytest.raises(RecordingError, match="only recording is held out"):
         explain_recordings(tire, {"a": one}, held_out="a")
+
+
+def test_each_recording_has_its_errors_and_one_that_gets_worse_is_named(tire, record, together, tmp_path):
+    report, _ = together
+    assert [fit.recording for fit in report.each] == ["a", "c"]
+    for fit in report.each:
+        assert fit.errors["fy"].rms_after < fit.errors["fy"].rms_before
+    data = without_visible(report).to_dict()
+    assert [each["recording"] for each in data["each"]] == ["a", "c"]
+    assert "Error in each recording" in without_visible(report).to_html(tmp_path / "page.html").read_text()
+    worse = PredictionError(50.0, 90.0, 1.5, 2.0)
+    said = on_each([*report.each, HeldOutFit("d", 100, {"fy": worse})], {"fy": 40.0})
+    slightly = PredictionError(60.1, 60.8, 1.005, 1.018)
+    assert on_each([HeldOutFit("d", 100, {"fy": slightly})], {"fy": 40.0}) == ""
+    assert said.startswith("With what was found, the RMS error of Fy in d (from 50 N to 90 N) rises")
+    assert on_each(report.each, {"fy": 40.0}) == ""
+
+
+def test_a_copy_is_refused(tire, record):
+    one = record(1).iloc[:1500]
+    later = one.iloc[300:].assign(time=one["time"].iloc[300:] + 100.0)
+    for copy in (one.copy(), later, one.iloc[:8]):
+        with pytest.raises(RecordingError, match=r"b: .* samples are in a, too"):
+            explain_recordings(tire, {"a": one, "b": copy}, held_out="b")
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"fy": 1.0 / POUND_FORCE}, r"b: fy is wrong by 0.22481 \(lbf taken for N\), and a is otherwise"),
+        ({"fy": 1e-3}, "b: fy is wrong by 0.001"),
+        ({"slip_angle": 1.0 / DEGREE}, "b: slip_angle is wrong by 57"),
+        ({"fy": -1.0}, "b: .* has the other sign"),
+        ({"normal_load": -1.0}, "b: normal_load has the other sign"),
+    ],
+)
+@pytest.mark.parametrize("held_out", [None, "b"])
+def test_other_units_and_signs_of_one_recording_are_no_physics(tire, record, changed, said, held_out):
+    """Joined, a force in lbf passed as it was: a tenth of the friction beside the others."""
+    a, b = (record(seed).iloc[:1500] for seed in (1, 2))
+    other = b.assign(**{name: b[name] * factor for name, factor in changed.items()})
+    with pytest.raises(RecordingError, match=said):
+        explain_recordings(tire, {"a": a, "b": other}, held_out=held_out)
+
+
+def test_the_same_wrong_sign_in_all_is_left_to_the_explanation(tire, record):
+    runs = {
+        name: record(seed).iloc[:1500].assign(fy=lambda r: -r["fy"]) for name, seed in (("a", 1), ("b", 2))
+    }
+    check_conventions(tire, runs)
+
+
+def test_what_the_reader_noted_of_explained_and_held_out_is_said(tire, record):
+    a, b = (record(seed).iloc[:1500] for seed in (1, 2))
+    a.attrs, b.attrs = (
+        {"notes": ["Lampe is not used"]},
+        {"notes": ["3 rows were dropped"], "assumed": ["ISO"]},
+    )
+    notes = explain_recordings(tire, {"a": a, "b": b}, held_out="b", explainer=FEW).notes
+    assert "a: Lampe is not used" in notes
+    assert "b, held out: 3 rows were dropped" in notes
+    assert "b, held out: ISO" in notes
+
+
+def test_a_held_out_recording_that_cannot_be_predicted_leaves_the_rest(tire, record):
+    a, b = (record(seed, friction=0.7).iloc[:1500] for seed in (1, 2))
+    report = explain_recordings(
+        tire, {"a": a, "b": b.drop(columns="fy").assign(fx=1.0)}, held_out="b", explainer=FEW
+    )
+    assert report.held_out is None
+    assert report.effects
+    assert any(text.startswith("b, which was held out, tests nothing: ") for text in report.head.remarks)
+
+
+@pytest.mark.parametrize(
+    ("changed", "kind", "value", "said"),
+    [
+        (lambda r: r.assign(fy=1.1 * r["fy"]), "gain", 0.1, "as if its Fy were 10.* larger"),
+        (lambda r: r.assign(slip_angle=r["slip_angle"] - 0.01), "slip", 0.01, r"recorded 0.57 deg too small"),
+        (lambda r: r.assign(fy=r["fy"] + 300.0), "offset", 300.0, "had an offset of [+](29|30)"),
+    ],
+)
+def test_what_one_recording_has_alone_is_asked_and_no_cause_of_all(tire, record, changed, kind, value, said):
+    """A gain of one load cell was *another surface*, explained; 0.4 deg in one of three *agrees*."""
+    runs = {name: record(seed).iloc[:2500] for name, seed in (("a", 1), ("b", 2), ("c", 3))}
+    plain = CorrectedModel(tire, (), ("fy",))
+    assert apart(plain, join_recordings(runs)) == []
+    joined = join_recordings({**runs, "b": changed(runs["b"])})
+    (odd,) = apart(plain, joined)
+    assert (odd.recording, odd.kind) == ("b", kind)
+    assert odd.value == pytest.approx(value, rel=0.1)
+    assert re.search(said, in_words(odd))
+    begins = joined["time"].iloc[joined.attrs["joined"][2]["first"]]
+    new = ("surface_change", {"friction": 0.1, "moment": begins - 0.5, "duration": 0.1})
+    gone = join_recordings({**runs, "c": runs["c"].assign(fy=1.1 * runs["c"]["fy"])})
+    (odd,) = apart(CorrectedModel(tire, (new,), ("fy",)), gone)
+    assert odd.recording == "c"
+
+
+def test_no_corrected_file_is_written_while_recordings_differ(tire, record, tmp_path):
+    runs = {name: record(seed).iloc[:2500] for name, seed in (("a", 1), ("b", 2), ("c", 3))}
+    runs["c"] = runs["c"].assign(fy=1.1 * runs["c"]["fy"])
+    report = explain_recordings(tire, runs, explainer=FEW)
+    assert report.stated_verdict in ("unexplained", f"{report.verdict}, recordings differ")
+    assert "he recording c differs from the others, as if its Fy were" in report.summary
+    with pytest.raises(RecordingError, match="nothing corrected is written: the recording c differs"):
+        report.corrected.to_tir(tmp_path / "corrected.tir")
 
 
 def test_a_report_is_drawn_and_fits_in_a_notebook(together):

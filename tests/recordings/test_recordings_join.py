@@ -76,6 +76,17 @@ def test_rates_are_brought_to_the_slowest():
     assert any("fast: 4 samples each averaged, 200 to 50 Hz" in note for note in joined.attrs["notes"])
 
 
+def test_forces_are_not_averaged_over_a_slip_that_changes():
+    """A run of 1 Hz made means over 7.8 deg of slip of the others: no tire has such a curve."""
+    fast, slow = run(), run(seconds=40.0, rate=1.0)
+    joined = join_recordings({"fast": fast, "slow": slow})
+    own = joined.iloc[:20]
+    assert own["fy"].tolist() == fast["fy"].iloc[::50].tolist()
+    assert any(
+        note.startswith("fast: one of 50 samples is used, 50 to 1 Hz") for note in joined.attrs["notes"]
+    )
+
+
 def test_nothing_is_averaged_over_a_gap_nor_from_fewer_samples():
     fast = run(rate=200.0).drop(index=range(402, 600))
     own = join_recordings({"slow": run(), "fast": fast}).iloc[1000:]
@@ -105,7 +116,14 @@ def test_the_notes_of_each_recording_are_kept():
         ({"a": run(), "b": run(sign=1.0)}, "positive fy in b, a negative in a"),
         ({"a": run(), "b": run().drop(columns="normal_load")}, "normal_load is not in all of a, b"),
         ({"a": run(), "b": run().rename(columns={"fy": "fx"})}, "a force is not in all of a, b"),
+        ({"a": run(), "b": run().drop(columns="normal_load")}, "a has normal_load, b has none"),
         ({"a": run(), "b": run()[::-1]}, "time does not rise"),
+        ({"a": run(), "b": run()[:1]}, "b: it has fewer than two samples"),
+        ({"a": run(), "b": run()[:0]}, "b: it has no samples"),
+        (
+            {"a": run(), "b": run().assign(time=run()["time"] * 1e3)},
+            "b: there are 20 s from .*longer than all of a",
+        ),
     ],
 )
 def test_what_cannot_be_joined_is_refused(recordings, message):
@@ -128,6 +146,13 @@ def test_one_note_of_several_recordings_is_said_once():
 def test_recordings_of_one_folder_belong_together():
     groups = by_folder(["x/2.csv", "x/1.csv", "y/1.csv", "1.csv"])
     assert groups == {"1.csv": ["1.csv"], "x/together": ["x/1.csv", "x/2.csv"], "y/1.csv": ["y/1.csv"]}
+
+
+def test_run_10_comes_after_run_2():
+    """Heat, wear and drift go on from one to the next: by text, run 10 was taken for the second one."""
+    names = ["x/run10.csv", "x/run2.csv", "x/run1.csv", "x/run01.csv", "x/check.csv"]
+    (inside,) = by_folder(names).values()
+    assert inside == ["x/check.csv", "x/run01.csv", "x/run1.csv", "x/run2.csv", "x/run10.csv"]
 
 
 def test_one_recording_of_a_folder_is_held_out():

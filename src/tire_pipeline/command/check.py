@@ -36,7 +36,7 @@ _KEYS = ("channel", "unit", "lowest", "median", "highest", "missing")
 @output_options("-o")
 def command(
     run: Path,
-    axes: str | None,
+    axes: tuple[str, ...],
     units: tuple[str, ...],
     names: tuple[str, ...],
     format_: str | None,

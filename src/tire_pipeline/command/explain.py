@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from tire_pipeline.command.options import (
     radius_option,
     read_runs,
     reading_options,
+    same_file,
 )
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish, three_digits
 from tire_pipeline.errors import RecordingError, TirePipelineError
@@ -61,7 +63,7 @@ def command(
     corrected: Path | None,
     overwrite: bool,
     radius: float | None,
-    axes: str | None,
+    axes: tuple[str, ...],
     units: tuple[str, ...],
     names: tuple[str, ...],
     format_: str | None,
@@ -79,7 +81,7 @@ def command(
         check_target(corrected, overwrite, file, option="--corrected")
     check_effects(without, "--without")
     tire = None if str(file) == NO_TIRE else read_tir(file, unloaded_radius=radius)
-    paths = list(dict.fromkeys([*runs, *([_among(hold_out, runs)] if hold_out else [])]))
+    paths = list(runs) if hold_out is None or _among(hold_out, runs) in runs else [*runs, hold_out]
     read = read_runs(paths, axes=axes, units=units, names=names, format_=format_)
     by_path = dict(zip(paths, read, strict=True))
     held_out = by_path[_among(hold_out, runs)] if hold_out else None
@@ -100,10 +102,13 @@ def command(
 
 def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
     """The recording that is meant: one of those given, by path or name, or a further file."""
-    for run in runs:
-        if run == hold_out or run.name == str(hold_out):
-            return run
-    return hold_out
+    meant = [run for run in runs if same_file(run, hold_out)] or [r for r in runs if r.name == str(hold_out)]
+    if len(meant) > 1:
+        raise RecordingError(
+            f"--hold-out {hold_out} may be {' or '.join(map(str, meant))}",
+            todo="give the path of one of them",
+        )
+    return meant[0] if meant else hold_out
 
 
 def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
@@ -116,6 +121,8 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
     grids = [_errors(report)]
     if report.effects:
         grids.append(_found(report.effects))
+    if report.each:
+        grids.append(_each(report.each))
     if report.held_out is not None:
         grids.append(_held_out(report.held_out))
     lines = [report.summary, *report.head.remarks]
@@ -156,6 +163,18 @@ def _found(effects: list[EffectReport]) -> Grid:
         [row for effect in effects for row in _rows(effect)],
         "Found: parameters of the effects' equations, which the page shows. Where parameters of one "
         "effect act alike, each alone is less certain than the effect",
+    )
+
+
+def _each(fits: Sequence[HeldOutFit]) -> Grid:
+    return Grid(
+        ("recording", "output", "RMS before", "RMS after", "unit"),
+        [
+            (fit.recording, n.capitalize(), three_digits(e.rms_before), three_digits(e.rms_after), unit_of(n))
+            for fit in fits
+            for n, e in fit.errors.items()
+        ],
+        "In each recording that was explained",
     )
 
 

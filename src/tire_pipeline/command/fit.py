@@ -47,7 +47,7 @@ def command(
     nominal_load: float | None,
     radius: float | None,
     overwrite: bool,
-    axes: str | None,
+    axes: tuple[str, ...],
     units: tuple[str, ...],
     names: tuple[str, ...],
     format_: str | None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -70,6 +71,23 @@ def radius_option(function: F) -> F:
     )(function)
 
 
+class _Axes(click.ParamType):
+    """``SAE``, or ``run.csv:SAE`` for one of several recordings."""
+
+    name = "axes"
+
+    def get_metavar(self, *_: Any) -> str:
+        """What the help shows."""
+        return "[iso|sae]"
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the text with axes in capitals."""
+        run, colon, axes = value.rpartition(":")
+        if axes.upper() not in ("ISO", "SAE"):
+            self.fail(f"{value!r} is not ISO, SAE, or either for one recording: run.csv:SAE", param, ctx)
+        return f"{run}{colon}{axes.upper()}"
+
+
 def reading_options(function: F) -> F:
     """``--axes``, ``--unit``, ``--name`` and ``--format``: how recordings are read."""
     for option in (
@@ -83,7 +101,8 @@ def reading_options(function: F) -> F:
             "names",
             multiple=True,
             metavar="COLUMN=CHANNEL",
-            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated.",
+            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated. Of "
+            "several recordings, --axes, --unit and --name hold for all, or for one: --unit run.csv:FY=kN.",
         ),
         click.option(
             "--unit",
@@ -94,7 +113,8 @@ def reading_options(function: F) -> F:
         ),
         click.option(
             "--axes",
-            type=click.Choice(["ISO", "SAE"], case_sensitive=False),
+            type=_Axes(),
+            multiple=True,
             help="Axes of the file, if the names of its channels do not tell. Default: ISO, with a note.",
         ),
     ):
@@ -105,7 +125,7 @@ def reading_options(function: F) -> F:
 def read_runs(
     paths: Sequence[Path],
     *,
-    axes: str | None,
+    axes: Sequence[str],
     units: Sequence[str],
     names: Sequence[str],
     format_: str | None,
@@ -113,16 +133,34 @@ def read_runs(
     """Read recordings, by file name, or by path where two have one name."""
     from tire_pipeline.recordings import read_recording
 
-    runs = {}
-    for name, path in zip(names_of(paths), paths, strict=True):
+    runs, called = {}, names_of(paths)
+    for name, path in zip(called, paths, strict=True):
+        stated = partial(_of_run, name, called)
         runs[name] = read_recording(
             path,
             format=format_,
-            axes=axes,
-            units=_pairs(units, "--unit", "COLUMN=UNIT, such as SA=deg"),
-            names=_pairs(names, "--name", "COLUMN=CHANNEL, such as Querkraft=fy"),
+            axes=next(iter(reversed(stated(axes, "--axes"))), None),
+            units=_pairs(stated(units, "--unit"), "--unit", "COLUMN=UNIT, such as SA=deg"),
+            names=_pairs(stated(names, "--name"), "--name", "COLUMN=CHANNEL, such as Querkraft=fy"),
         )
     return runs
+
+
+def _of_run(run: str, runs: Sequence[str], texts: Sequence[str], option: str) -> list[str]:
+    """What is stated for all recordings, and after it what is stated for one of them."""
+    whose = [next((r for r in runs if text.startswith(f"{r}:")), "") for text in texts]
+    if option == "--axes" and (
+        unknown := [t for t, r in zip(texts, whose, strict=True) if ":" in t and not r]
+    ):
+        of = unknown[0].rpartition(":")[0]
+        raise click.BadParameter(f"no recording is called {of!r}: {', '.join(runs)}", param_hint=option)
+    own = [text.removeprefix(f"{run}:") for text, r in zip(texts, whose, strict=True) if r == run]
+    return [text for text, r in zip(texts, whose, strict=True) if not r] + own
+
+
+def same_file(one: Path, two: Path) -> bool:
+    """Whether two paths are one file, however each is written."""
+    return one == two or (one.exists() and two.exists() and one.samefile(two))
 
 
 def names_of(paths: Sequence[Path]) -> list[str]:
@@ -133,7 +171,7 @@ def names_of(paths: Sequence[Path]) -> list[str]:
     DomainError
         A file is given twice.
     """
-    twice = [path for number, path in enumerate(paths) if path in paths[:number]]
+    twice = [p for number, p in enumerate(paths) if any(same_file(p, other) for other in paths[:number])]
     if twice:
         raise DomainError("this file is given twice", where=str(twice[0]), todo="give each file once")
     names = [path.name for path in paths]

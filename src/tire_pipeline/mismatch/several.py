@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,18 +11,26 @@ import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.corrected.apart import Apart, apart, in_words
 from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.explainer import Explainer
 from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
+from tire_pipeline.mismatch.recording.each_run import check_conventions, check_copies
 from tire_pipeline.mismatch.recording.given import SPIKES, usable_numbers
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
-from tire_pipeline.mismatch.report.headline.sentences import with_held_out, without_equation
+from tire_pipeline.mismatch.report.headline.sentences import (
+    on_each,
+    on_question,
+    with_held_out,
+    without_equation,
+)
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 from tire_pipeline.recordings.conventions.plausible import implausible_radii
-from tire_pipeline.recordings.join import join_recordings
+from tire_pipeline.recordings.join import check_missing, join_recordings
 
 Array = np.ndarray
 
@@ -54,12 +62,15 @@ def explain_recordings(
     Returns
     -------
     MismatchReport
-        ``recordings`` names those that were explained. ``notes`` says which channels were left out.
+        ``recordings`` names those that were explained, and ``each`` has the errors in each of several.
+        ``notes`` says which channels were left out. ``held_out`` is None where that one cannot be predicted
+        (a channel is missing): ``head.remarks`` says why.
 
     Raises
     ------
     RecordingError
-        They cannot be joined or explained, or the one to hold out is unknown or the only one.
+        They cannot be joined or explained; one is a copy of another one, or in other units or axes; the one
+        to hold out is unknown or the only one.
 
     See Also
     --------
@@ -84,7 +95,8 @@ def explain_recordings(
     >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
     >>> rig["fy"] = softer.forces(slip_angle=rig["slip_angle"], normal_load=rig["normal_load"]).fy
     >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
-    >>> report = explain_recordings(tire, {"first": rig, "second": rig.iloc[::-1]}, held_out="second")
+    >>> again = rig.assign(fy=rig["fy"] + np.random.default_rng(1).normal(0.0, 20.0, len(rig)))
+    >>> report = explain_recordings(tire, {"first": rig, "second": again}, held_out="second")
     >>> report.recordings, report.held_out.recording
     (('first',), 'second')
     """
@@ -96,9 +108,11 @@ def explain_recordings(
     explained = {name: usable_numbers(frame) for name, frame in recordings.items() if name != held_out}
     if not explained:
         raise RecordingError("the only recording is held out", todo="pass another one to explain")
+    if len(recordings) > 1:
+        _check(tire, recordings)
     if len(explained) == 1:
-        (only,) = explained.values()
-        joined, notes = only, []
+        ((name, joined),) = explained.items()
+        notes = [f"{name}: {said}" for said in notes_beside_assumed(joined)] if held_out is not None else []
     else:
         joined = join_recordings(explained)
         notes = notes_beside_assumed(joined)
@@ -112,11 +126,106 @@ def explain_recordings(
         raise RecordingError(error.what, where=where, todo=error.todo) from error
     notes = [*notes, *report.notes, *implausible_radii(recordings)]
     report = replace(report, recordings=tuple(explained), notes=notes)
-    if held_out is None:
+    if held_out is not None:
+        known = {said for frame in explained.values() for said in _as_read(frame)}
+        own = [said for said in _as_read(recordings[held_out]) if said not in known]
+        report.notes.extend(f"{held_out}, held out: {said}" for said in own)
+        report = _tested(report, recordings[held_out], held_out)
+    if len(explained) == 1:
         return report
-    report = _equation_held(report, recordings[held_out], held_out)
-    tried = predict_held_out(report.corrected, recordings[held_out], held_out)
+    each = errors_of_each(report.corrected, joined)
+    noise = {o: f.noise_floor for o, f in report.fit.items()}
+    report = replace(report, each=each, head=report.head.beside(on_each(each, noise)))
+    return _asked(report, apart(report.corrected, joined))
+
+
+def _asked(report: MismatchReport, odd: Sequence[Apart]) -> MismatchReport:
+    """Return the report with the question why some recordings differ from the others, before what it found.
+
+    What one has alone, such as a gain of its load cell, is in no way what the model leaves out.
+    """
+    if not odd or report.corrected.question is not None:
+        return report
+    names = " and ".join(dict.fromkeys(each.recording for each in odd))
+    question = Question(
+        "; ".join(in_words(each) for each in odd),
+        f"Check what is different in {names} (load cell, set-up, surface, another tire), and explain what "
+        "differs by itself",
+        "unexplained" if report.verdict in ("agrees", "undecided") else "",
+        short="recordings differ",
+    )
+    return replace(
+        report,
+        verdict=question.verdict or report.verdict,
+        corrected=replace(report.corrected, question=question),
+        head=on_question(question, report.head),
+    )
+
+
+def _tested(report: MismatchReport, recording: pd.DataFrame, name: str) -> MismatchReport:
+    """Return the report with the errors in a held-out recording; without, where it cannot be predicted."""
+    try:
+        report = _equation_held(report, recording, name)
+        tried = predict_held_out(report.corrected, recording, name)
+    except RecordingError as error:  # what was found in the others holds all the same
+        why = f"{name}, which was held out, tests nothing: {error.what}."
+        return replace(report, head=report.head.beside(why))
     return replace(report, held_out=tried, head=with_held_out(report.head, tried, report.effects))
+
+
+def _check(tire: Any, recordings: Mapping[str, pd.DataFrame]) -> None:
+    """Refuse, before anything long is computed, what would be explained as physics or is not unseen."""
+    check_missing(recordings)
+    check_copies(recordings)
+    if tire is not None:
+        check_conventions(tire, recordings)
+
+
+def _as_read(recording: pd.DataFrame) -> list[str]:
+    """How a recording was read: what was assumed, and what was noted."""
+    return [*recording.attrs.get("assumed", []), *notes_beside_assumed(recording)]
+
+
+def errors_of_each(corrected: CorrectedModel, joined: pd.DataFrame) -> tuple[HeldOutFit, ...]:
+    """Return the errors in each of the recordings that were explained together.
+
+    Parameters
+    ----------
+    corrected : CorrectedModel
+    joined : DataFrame
+        Of :func:`tire_pipeline.recordings.join_recordings`: heat, wear and drift go on from one to the next.
+
+    Notes
+    -----
+    Their forces were used to find the effects: a correction that holds lowers the error of each.
+    """
+    after, before = corrected.predict(joined), _plain(corrected).predict(joined)
+    rows = {part["name"]: slice(part["first"], part["last"] + 1) for part in joined.attrs["joined"]}
+    return tuple(
+        HeldOutFit(name, *_errors(joined.iloc[own], before.iloc[own], after.iloc[own]))
+        for name, own in rows.items()
+    )
+
+
+def _plain(corrected: CorrectedModel) -> CorrectedModel:
+    """The model without what was found, as it predicts what is recorded."""
+    return replace(corrected, changes=(), instead=(), unnamed=None)
+
+
+def _errors(
+    recorded: pd.DataFrame, before: pd.DataFrame, after: pd.DataFrame
+) -> tuple[int, dict[str, PredictionError]]:
+    """Samples in which anything can be compared, and errors of each output that was recorded."""
+    errors, compared = {}, np.zeros(len(recorded), bool)
+    for n in [n for n in after.columns if n in recorded]:
+        left = [
+            recorded[n].to_numpy(dtype=float) - frame[n].to_numpy(dtype=float) for frame in (before, after)
+        ]
+        good = np.isfinite(left[0]) & np.isfinite(left[1])
+        if good.any():
+            errors[n] = _error(*(x[good] for x in left))
+            compared |= good
+    return int(compared.sum()), errors
 
 
 def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -> MismatchReport:
@@ -166,19 +275,13 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     """
     usable = _finite(usable_numbers(recording))
     after = corrected.predict(usable)
-    before = replace(corrected, changes=(), unnamed=None).predict(usable)
-    names = [n for n in after.columns if n in usable and np.isfinite(usable[n]).any()]
-    if not names:
+    _, errors = _errors(usable, _plain(corrected).predict(usable), after)
+    if not errors:
         raise RecordingError(
             f"{name} has none of the forces that were explained ({', '.join(after.columns)})",
             where=name,
             todo="hold out another recording",
         )
-    errors = {}
-    for n in names:
-        recorded = usable[n].to_numpy(dtype=float)
-        good = np.isfinite(recorded)
-        errors[n] = _error(*((recorded - frame[n].to_numpy(dtype=float))[good] for frame in (before, after)))
     return HeldOutFit(name, len(usable), errors)
 
 

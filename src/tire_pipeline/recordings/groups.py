@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from fnmatch import fnmatch
 from pathlib import PurePosixPath
@@ -22,7 +23,8 @@ def by_folder(names: Iterable[str]) -> dict[str, list[str]]:
     Returns
     -------
     dict of str to list of str
-        Label -> its recordings, sorted: ``folder/together`` for several, the path itself for a single one.
+        Label -> its recordings, sorted, with numbers in names by size: ``folder/together`` for several, the
+        path itself for a single one.
 
     Examples
     --------
@@ -30,12 +32,18 @@ def by_folder(names: Iterable[str]) -> dict[str, list[str]]:
     {'a/together': ['a/1.csv', 'a/2.csv'], 'b/1.csv': ['b/1.csv']}
     """
     folders: dict[PurePosixPath, list[str]] = {}
-    for name in sorted(names):
+    for name in sorted(names, key=_by_number):
         folders.setdefault(PurePosixPath(name).parent, []).append(name)
     return {
         (str(folder / TOGETHER) if len(inside) > 1 else inside[0]): inside
         for folder, inside in folders.items()
     }
+
+
+def _by_number(name: str) -> tuple[list[tuple[int, str]], str]:
+    """Sort key by which run 2 comes before run 10: heat and wear go on in this order."""
+    pieces = re.findall(r"[0-9]+|[^0-9]+", name)
+    return [(int(p), "") if p.isascii() and p.isdigit() else (-1, p) for p in pieces], name
 
 
 def matching(names: Sequence[str], pattern: str) -> str | None:

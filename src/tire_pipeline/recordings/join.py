@@ -27,7 +27,7 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
 
     Each recording follows the one before it after a gap in time, so that no filter, lag or delay runs over
     the seam. Only channels that all of them have are kept. Recordings of different rates are brought to the
-    slowest by averages of neighbours.
+    slowest: by averages of neighbours, or by single samples where slip changes too fast for averages.
 
     Parameters
     ----------
@@ -65,6 +65,11 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     """
     if not recordings:
         raise RecordingError("there is no recording to join", todo="pass at least one")
+    empty = [name for name, frame in recordings.items() if len(frame) == 0]
+    if empty:
+        raise RecordingError(
+            "it has no samples", where=", ".join(empty), todo="leave it out, or record again"
+        )
     recordings = {name: frame.dropna(axis=1, how="all") for name, frame in recordings.items()}
     timed = {name for name, frame in recordings.items() if "time" in frame}
     if timed and len(timed) < len(recordings):
@@ -86,28 +91,50 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
     """Columns of all recordings, in the first one's order; note or refuse what some lack."""
     frames = list(recordings.values())
     common = [str(c) for c in frames[0].columns if all(c in frame for frame in frames)]
+    check_missing(recordings)
     for channel in _JOINED_CHANNELS:
-        lacking = [name for name, frame in recordings.items() if channel not in frame]
+        lacking, moving = _lacking_and_moving(recordings, channel)
         if not 0 < len(lacking) < len(frames):
             continue
-        moving = [name for name, frame in recordings.items() if channel in frame and _moves(frame, channel)]
-        if channel in _ZERO_IF_MISSING and moving:
+        note = f"{channel} is left out: {', '.join(lacking)} {_have(lacking)} none"
+        if moving and channel not in FORCE_CHANNELS:
+            note += f". It varies in {', '.join(moving)}: what depends on it cannot be determined there"
+        notes.append(note)
+    for what, names in _NEEDED.items():
+        if not set(names) & set(common):
+            having = {name: ", ".join(n for n in names if n in frame) for name, frame in recordings.items()}
+            said = ", ".join(f"{name} has {have or 'none'}" for name, have in having.items())
+            raise RecordingError(
+                f"{what} is not in all of {', '.join(recordings)}: {said}",
+                todo="name the channels, or explain the recordings separately",
+            )
+    return common
+
+
+def check_missing(recordings: Mapping[str, pd.DataFrame]) -> None:
+    """Refuse recordings of which one lacks a slip or camber that another one has, and that is not zero there.
+
+    Raises
+    ------
+    RecordingError
+        Naming both.
+    """
+    for channel in _ZERO_IF_MISSING:
+        lacking, moving = _lacking_and_moving(recordings, channel)
+        if lacking and moving:
             raise RecordingError(
                 f"{channel} is not zero in {moving[0]}, and missing from {lacking[0]}: it would count as 0",
                 where=channel,
                 todo="name the channel, or leave one of the two recordings out",
             )
-        note = f"{channel} is left out: {', '.join(lacking)} {_have(lacking)} none"
-        if moving and channel not in FORCE_CHANNELS:
-            note += f". It varies in {', '.join(moving)}: what depends on it cannot be determined there"
-        notes.append(note)
-    missing = [what for what, names in _NEEDED.items() if not set(names) & set(common)]
-    if missing:
-        raise RecordingError(
-            f"{' and '.join(missing)} is not in all of {', '.join(recordings)}",
-            todo="name the channels, or explain the recordings separately",
-        )
-    return common
+
+
+def _lacking_and_moving(recordings: Mapping[str, pd.DataFrame], channel: str) -> tuple[list[str], list[str]]:
+    """Recordings without a channel, and those in which it varies (or is not zero, where zero is assumed)."""
+    lacking = [name for name, frame in recordings.items() if channel not in frame]
+    return lacking, [
+        name for name, frame in recordings.items() if channel in frame and _moves(frame, channel)
+    ]
 
 
 _NEEDED = {"a force": TANGENTIAL_FORCES, "normal_load": ("normal_load",)}
@@ -146,7 +173,7 @@ def _one_axis_system(recordings: Mapping[str, pd.DataFrame]) -> None:
             raise RecordingError(
                 f"a positive {slip} gives a positive {force} in {signs[1.0]}, a negative in {signs[-1.0]}",
                 where=force,
-                todo='the axes differ: read one of them with axes="SAE", or leave it out',
+                todo=f"turn {slip} or {force} at its source (axes SAE turn both), or leave one out",
             )
 
 
@@ -155,20 +182,48 @@ def _one_rate(parts: Mapping[str, pd.DataFrame], notes: list[str]) -> dict[str, 
     steps = {name: _step(name, frame) for name, frame in parts.items()}
     slowest = max(steps.values())
     result = dict(parts)
+    slow = max(steps, key=lambda name: steps[name])
     for name, step in steps.items():
         count = round(slowest / step)
-        if count > 1:
-            result[name] = _averaged(parts[name], step, count)
-            notes.append(
-                f"{name}: {count} samples each averaged, {1 / step:.4g} to {1 / (step * count):.4g} Hz"
+        if count < 2:
+            continue
+        averaged = _averaged(parts[name], step, count)
+        if len(averaged) < 2:
+            raise RecordingError(
+                f"there are {in_digits(slowest, 3)} s from sample to sample, longer than all of {name}",
+                where=slow,
+                todo="check the unit of its time, or leave it out",
             )
+        rates = f"{1 / step:.4g} to {1 / (step * count):.4g} Hz, the rate of {slow}"
+        if _smeared(parts[name], count):
+            result[name] = parts[name].iloc[::count].reset_index(drop=True)
+            notes.append(
+                f"{name}: one of {count} samples is used, {rates}; slip changes too fast to average them. "
+                f"Without {slow} all are used"
+            )
+        else:
+            result[name] = averaged
+            notes.append(f"{name}: {count} samples each averaged, {rates}")
     return result
+
+
+def _smeared(frame: pd.DataFrame, count: int) -> bool:
+    """Whether a slip changes so much within samples that are averaged that the mean force is another one."""
+    size = len(frame) // count * count
+    for slip, much in _ZERO_IF_MISSING.items():
+        if slip in frame:
+            groups = frame[slip].to_numpy(dtype=float)[:size].reshape(-1, count)
+            if np.nanquantile(np.abs(groups[:, -1] - groups[:, 0]), 0.9) > much:
+                return True
+    return False
 
 
 def _step(name: str, frame: pd.DataFrame) -> float:
     time = frame["time"].to_numpy(dtype=float)
     steps = np.diff(time[np.isfinite(time)])
-    if steps.size == 0 or np.any(steps <= 0.0):
+    if steps.size == 0:
+        raise RecordingError("it has fewer than two samples", where=name, todo="leave it out")
+    if np.any(steps <= 0.0):
         raise RecordingError(
             "time does not rise from sample to sample",
             where=name,

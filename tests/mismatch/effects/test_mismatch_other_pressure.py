@@ -6,6 +6,7 @@ from small_rig import rig_force, schedule
 from weighed import beside, named_sets
 
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch.model.nominal import levels
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 FILE, RECORDED = 2.5e5, 1.9e5
@@ -42,3 +43,15 @@ def test_a_file_without_a_pressure_says_nothing_of_another_one(tire, softer):
     data = prepare(tire, softer).data
     assert data.nominal.pressure_of_file is None
     assert not data.nominal.off_pressure
+
+
+def test_the_levels_of_pressure_do_not_go_by_the_order_of_the_runs():
+    """Three runs at 2, 2.5 and 3 bar: only the most common and the first were tried, whichever came first."""
+    noise = 500.0 * np.random.default_rng(0).standard_normal(600)
+    for order in ((2.5e5, 2.0e5, 3.0e5), (3.0e5, 2.5e5, 2.0e5), (2.0e5, 3.0e5, 2.5e5)):
+        found = levels(np.repeat(order, 200) + noise, least=7.5e3)
+        assert sorted(found) == pytest.approx([2.0e5, 2.5e5, 3.0e5], rel=0.01)
+
+
+def test_a_pressure_that_drifts_is_one_level():
+    assert levels(np.linspace(2.0e5, 2.6e5, 600), least=7.5e3) == pytest.approx([2.3e5])

@@ -19,6 +19,8 @@ OF_CAMBER = {
     "mz": frozenset("QBZ4 QBZ5 QDZ3 QDZ4 QDZ8 QDZ9 QDZ10 QDZ11 QEZ5 QHZ3 QHZ4 SSZ3 SSZ4".split()),
 }
 """Coefficients through which each force of a model, and its aligning moment, answers to camber."""
+_LEAST_STAY = 0.1
+"""Share of a recording that makes a level: so there are ten at most, and each costs a search."""
 _PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
 
 
@@ -132,13 +134,19 @@ class NominalConditions:
 
     @cached_property
     def pressure_levels(self) -> list[float]:
-        """Pressures at which the model may be right, Pa: the file's, or the most common and the first."""
+        """Pressures at which the model may be right, Pa: the file's, or the most common, others, the first.
+
+        Others are those at which the recording stays, whatever their order. A pressure that drifts has none.
+        """
         nominal = self.pressure
         if nominal == self.pressure_of_file:
             return [nominal]
         pressure = self.recording.smooth("pressure")
-        first = float(pressure[0])
-        return [nominal] + ([first] if abs(first - nominal) > least_spread("pressure", pressure) else [])
+        least, found = least_spread("pressure", pressure), [nominal]
+        for level in (*levels(self.recording.channels["pressure"], least), float(pressure[0])):
+            if all(abs(level - other) > least for other in found):
+                found.append(level)
+        return found
 
     @cached_property
     def pressure_of_file(self) -> float | None:
@@ -227,6 +235,25 @@ def loads_of_file(tire: TireModel) -> tuple[float, float]:
     """Return the least and the largest load that a file says it holds for, N; infinite without a range."""
     *_, low, high = tire.ranges.get("normal_load", (-np.inf, np.inf))
     return low, high
+
+
+def levels(x: Array, least: float) -> list[float]:
+    """Return the values at which a channel stays, the most common first.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    least : float
+        What is nearer to each other is one level.
+
+    Examples
+    --------
+    >>> levels(np.repeat([3.0, 2.0, 2.5, 9.0], [40, 50, 30, 1]), least=0.1)
+    [2.0, 3.0, 2.5]
+    """
+    pieces = np.split(np.sort(x), np.flatnonzero(np.diff(np.sort(x)) > least) + 1)
+    kept = [piece for piece in pieces if piece.size >= _LEAST_STAY * x.size]
+    return [float(np.median(piece)) for piece in sorted(kept, key=len, reverse=True)]
 
 
 def most_common(x: Array) -> float:

@@ -22,6 +22,8 @@ class Question:
         Whether sets of effects may be likelier than what is asked, and then answer it.
     likely : bool
         Whether it stays open unless they answer it. If not, it is asked only if it is likelier than any set.
+    short : str
+        What is open in two words, beside a verdict.
     """
 
     why: str
@@ -29,3 +31,4 @@ class Question:
     verdict: str = ""
     by_sets: bool = False
     likely: bool = True
+    short: str = "axes open"

@@ -232,6 +232,13 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     return Prepared(recording, data, findings, notes, rows, factors, cleaned, assumed, questions, left_out)
 
 
+def whole_rows(recording: pd.DataFrame) -> tuple[dict[str, Array], Array | None]:
+    """Return the channels of a recording, and its time, at the rows with a number in each that matters."""
+    arrays = _arrays(usable_numbers(recording))
+    time = rising_time(arrays)
+    return _part(_usable(arrays, time, []), arrays, time)
+
+
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
     """What is taken for given: by the reader, and by the repair of exact factors."""
     assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))

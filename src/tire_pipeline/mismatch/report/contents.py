@@ -206,7 +206,7 @@ class PredictionError:
 
 @dataclass(frozen=True)
 class HeldOutFit:
-    """How the explained model predicts a recording that was held out.
+    """How the explained model predicts one recording: one that was held out, or one of several explained.
 
     Parameters
     ----------
@@ -224,8 +224,8 @@ class HeldOutFit:
 
     Notes
     -----
-    The held-out recording takes no part in choosing or fitting. Only what a whole rig shares, such as the
-    unit of a channel, is taken from the others.
+    A held-out recording takes no part in choosing or fitting. Only what a whole rig shares, such as the
+    unit of a channel, is taken from the others. ``report.each`` holds the recordings that did take part.
 
     Examples
     --------
@@ -238,7 +238,8 @@ class HeldOutFit:
     >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
     >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
     >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
-    >>> report = explain_recordings(tire, {"first": rig, "second": rig}, held_out="second")
+    >>> again = rig.assign(fy=rig["fy"] + np.random.default_rng(1).normal(0.0, 20.0, len(rig)))
+    >>> report = explain_recordings(tire, {"first": rig, "second": again}, held_out="second")
     >>> error = report.held_out.errors["fy"]
     >>> report.held_out.recording, error.rms_after < error.rms_before
     ('second', True)
@@ -266,6 +267,7 @@ class ReportContents:
     series: dict[str, Any] = field(default_factory=dict, repr=False)
     recordings: tuple[str, ...] = ()
     held_out: HeldOutFit | None = None
+    each: tuple[HeldOutFit, ...] = ()
     assumed: list[str] = field(default_factory=list)
     find_visible: Callable[[], list[Visible]] = field(default=list, repr=False, compare=False)
     unnamed: UnnamedReport = field(
@@ -287,9 +289,9 @@ class ReportContents:
 
     @property
     def stated_verdict(self) -> str:
-        """The verdict, and that the axes are open where what was found rests on them."""
+        """The verdict, and what is open where what was found rests on it: axes, or that recordings differ."""
         question = self.corrected.question
-        return self.verdict if question is None or question.verdict else f"{self.verdict}, axes open"
+        return self.verdict if question is None or question.verdict else f"{self.verdict}, {question.short}"
 
     @property
     def summary(self) -> str:

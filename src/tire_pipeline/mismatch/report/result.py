@@ -48,6 +48,8 @@ class MismatchReport(ReportContents):
         Names of the recordings that were explained together.
     held_out : HeldOutFit, optional
         Errors in the recording that was held out.
+    each : tuple of HeldOutFit
+        Errors in each of several recordings that were explained together; no test, because they took part.
     assumed : list of str
         What was assumed because the recording does not state it.
     find_visible : callable
@@ -147,6 +149,7 @@ class MismatchReport(ReportContents):
             "visible": [asdict(v) for v in self.visible],
             "recordings": list(self.recordings),
             "held_out": None if self.held_out is None else asdict(self.held_out),
+            "each": [asdict(each) for each in self.each],
             "unnamed": asdict(self.unnamed),
             "withheld": list(self.withheld),
             "probabilities": [{"names": list(names), "probability": p} for names, p in self.probabilities],

@@ -182,8 +182,8 @@ def _next_after(fit: HeldOutFit) -> str:
     if any(e.ratio_high < 1.0 for e in errors):
         return "Next, use the corrected model within the ranges of the explained recordings."
     return (
-        f"Next, keep the model as it is for recordings like {fit.recording}: the correction gains nothing "
-        "there."
+        f"Next, keep the model as it is for recordings like {fit.recording}: no gain of the correction is "
+        "certain there."
     )
 
 
@@ -200,6 +200,23 @@ def _on_held_out(fit: HeldOutFit) -> str:
         else:
             parts.append(f"{output.capitalize()} is about the same as before ({sizes})")
     return f"in {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}"
+
+
+def on_each(each: Sequence[HeldOutFit], noise: Mapping[str, float]) -> str:
+    """Say in which of the recordings that were explained together the error rises by more than the noise."""
+    risen = [
+        f"{output.capitalize()} in {fit.recording} (from {newtons(e.rms_before)} {unit_of(output)} to "
+        f"{newtons(e.rms_after)} {unit_of(output)})"
+        for fit in each
+        for output, e in fit.errors.items()
+        if e.ratio_low > 1.0 and e.rms_after**2 - e.rms_before**2 > noise.get(output, 0.0) ** 2
+    ]
+    if not risen:
+        return ""
+    return (
+        f"With what was found, the RMS error of {' and of '.join(risen)} rises: it does not hold for all "
+        "recordings. Explain those in which it rises by themselves, too."
+    )
 
 
 def _beside_noise(fit: Mapping[str, OutputFit], *, after: bool = False) -> str:
