@@ -46,7 +46,7 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
     """Return the named set without those effects whose correction does not help on unseen sweeps.
 
     Both have to be confirmed there: the whole choice, made again without them, and the very effects that are
-    added, fitted without them. Each of these has to help on average beside the others. The effect goes first
+    added, fitted without them. So much of each as is added has to help on average beside the others. The effect goes first
     without which the others leave least.
 
     Parameters
@@ -63,8 +63,8 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
     repeated = RepeatedChoice(sets, analysis.block, level)
     sweep = None if analysis.data.time is None else whole_sweeps(analysis.block)
 
-    def size(left: Mapping[str, Array]) -> float:
-        return size_over_largest(left, analysis.largest)
+    def size(left: Mapping[str, Array], part: float = 1.0) -> float:
+        return size_over_largest({o: partly(before[o], left[o], part) for o in before}, analysis.largest)
 
     while fit.names:
         both = (
@@ -75,7 +75,7 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
         fewer = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
         without = [each_left_out(analysis, each, refitted=True) for each in fewer]
         part = min(confirmed_part(before, left, analysis.largest, sweep) for left in both)
-        if part > 0.0 and all(size(both[1]) < size(left) for left in without):
+        if part > 0.0 and all(size(both[1], part) < size(left, part) for left in without):
             left = max(both, key=size)
             return Guarded(fit, part, {o: partly(before[o], left[o], part) for o in before})
         fit = fewer[min(numbers, key=lambda i: size(without[i]))]
