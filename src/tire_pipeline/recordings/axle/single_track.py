@@ -145,6 +145,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     arm = vehicle.front_length if rear else vehicle.rear_length
     sign = -1.0 if rear else 1.0
     to_cg = vehicle.rear_length - motion.ahead
+    ax, ax_std = _ahead_at_cg(motion, to_cg)
     ay = motion.ay + to_cg * motion.yaw_acceleration
     fy = (mass * arm * ay + sign * vehicle.yaw_inertia * motion.yaw_acceleration) / length
     per_yaw = (mass * arm * to_cg + sign * vehicle.yaw_inertia) / length
@@ -153,7 +154,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
         (vehicle.inertia_std * motion.yaw_acceleration / length) ** 2
         + (vehicle.axle_mass_std * ay) ** 2
         + (mass * arm / length * motion.yaw_acceleration * vehicle.marker_offset_std) ** 2
-        + (mass * arm / length * motion.ax * vehicle.yaw_offset_std) ** 2
+        + (mass * arm / length * ax * vehicle.yaw_offset_std) ** 2
     )
     to_axle = (0.0 if rear else length) - motion.ahead
     vy = motion.vy + to_axle * motion.yaw_rate
@@ -173,16 +174,22 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
         fy, noise, unsure = (v / np.cos(wheel) for v in (fy, noise, unsure))
     static = vehicle.front_mass if not rear else mass - vehicle.front_mass
     height = vehicle.cg_height or 0.0
-    shift = mass * motion.ax / length * (1.0 if rear else -1.0)
+    shift = mass * ax / length * (1.0 if rear else -1.0)
     load = static * GRAVITY + shift * height
     load_std = np.sqrt(
         (vehicle.axle_mass_std * GRAVITY) ** 2
         + (shift * vehicle.cg_height_std) ** 2
-        + (mass / length * height * motion.ax_std) ** 2
+        + (mass / length * height * ax_std) ** 2
     )
     return _AxleState(
         fy, noise, unsure, slip, slip_noise, slip_unsure, speed, load, load_std * np.ones_like(fy)
     )
+
+
+def _ahead_at_cg(motion: BodyMotion, to_cg: float) -> tuple[Array, Array]:
+    """Acceleration ahead at the centre of gravity, and its noise: the marker's way is another circle."""
+    ax = motion.ax - to_cg * motion.yaw_rate**2
+    return ax, np.hypot(motion.ax_std, 2.0 * to_cg * motion.yaw_rate * motion.yaw_rate_std)
 
 
 def _table(motion: BodyMotion, state: _AxleState) -> pd.DataFrame:
@@ -233,10 +240,9 @@ def _add_longitudinal(
     if share is None:
         return
     part = share if axle == "front" else 1.0 - share
-    to_cg = vehicle.rear_length - motion.ahead
-    ax = motion.ax - to_cg * motion.yaw_rate**2
+    ax, ax_std = _ahead_at_cg(motion, vehicle.rear_length - motion.ahead)
     table["fx"] = part * vehicle.mass * ax
-    table["fx_std"] = part * vehicle.mass * motion.ax_std
+    table["fx_std"] = part * vehicle.mass * ax_std
     notes.append("fx: mass times acceleration, without aerodynamic drag and rolling resistance")
 
 
