@@ -39,6 +39,8 @@ class BodyMotion:
         m/s, m/s, rad/s, rad/s^2, m/s^2, m/s^2.
     good : ndarray of bool
         False where a sample rests on missing data.
+    ay_gain_std : float
+        Standard uncertainty of a factor on `ay`, the same throughout.
     """
 
     time: Array
@@ -59,6 +61,7 @@ class BodyMotion:
     smoother: Smoother
     noise: dict[str, float]
     notes: list[str]
+    ay_gain_std: float = 0.0
 
 
 def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:

@@ -8,13 +8,18 @@ from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.body_motion import BodyMotion, even_drive
+from tire_pipeline.recordings.axle.kinematics import acceleration_gain
 from tire_pipeline.recordings.axle.smoothing import Smoother, white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
 from tire_pipeline.recordings.conventions.drive_columns import MOTION_CHANNELS
+from tire_pipeline.unit_definitions import GRAVITY
 
 Array = NDArray[np.float64]
 # Straight running: below these the lateral speed is taken as zero.
 _STRAIGHT_YAW_RATE, _STRAIGHT_ACCELERATION, _STRAIGHT_SECONDS = 0.02, 0.2, 0.5
+_INTEGRATED = "lateral speed integrated between stretches of straight running; road bank is taken as zero"
+# A wheel's circumference, on which a speed rests, is hardly known better.
+_GAIN_NOTED = 0.02
 
 
 def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMotion:
@@ -44,26 +49,39 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         )
     even = even_drive(drive, MOTION_CHANNELS, bandwidth)
     table, smoother = even.table, even.smoother
-    speed, rate, ay = (_filled(table[name]) for name in MOTION_CHANNELS)
+    recorded, rate, ay = (_filled(table[name]) for name in MOTION_CHANNELS)
     keep, slope = smoother.gain(0, 0), smoother.gain(0, 1)
-    stds = [white_noise_std(s) for s in (speed, rate, ay)]
-    vy, vy_std, how = _lateral_speed(table, speed, rate, ay, smoother, stds)
+    stds = [white_noise_std(s) for s in (recorded, rate, ay)]
+    # To the vehicle's middle line and upright: a point beside it turns on another circle, and a sensor
+    # that leans with the body feels a part of gravity.
+    left = vehicle.marker_lateral
+    speed, ay = recorded + left * rate, ay / vehicle.felt_acceleration + left * rate**2
+    stds = [np.hypot(stds[0], left * stds[1]), stds[1], stds[2] / vehicle.felt_acceleration]
+    vy, vy_std, how = _lateral_speed(table, recorded, speed, rate, ay, smoother, stds)
+    turning, vx = smoother.smooth(rate), smoother.smooth(speed)
     if "longitudinal_acceleration" in table:
         raw = _filled(table["longitudinal_acceleration"])
-        ax, ax_std = smoother.smooth(raw), white_noise_std(raw) * keep
+        ax = smoother.smooth(raw) + left * smoother.smooth(rate, 1)
+        ax_std = np.hypot(white_noise_std(raw) * keep, left * stds[1] * slope)
     else:
-        ax = smoother.smooth(speed, 1) - smoother.smooth(rate) * vy
+        ax = smoother.smooth(speed, 1) - turning * vy
         ax_std = stds[0] * slope
+    lateral = smoother.smooth(ay)
+    changing = 0.0 if how.startswith(_INTEGRATED) else np.gradient(vy, smoother.dt)
+    notes, used = [*even.notes, how], even.good & (vx > 0)
+    gain = acceleration_gain(lateral[used], (turning * vx + changing)[used])
+    if gain is not None and abs(gain - 1.0) > _GAIN_NOTED:
+        notes.append(_gain_in_words(gain, vehicle))
     one = np.ones_like(speed)
     return BodyMotion(
         time=table["time"].to_numpy(dtype=float),
         ahead=vehicle.marker_offset,
-        vx=smoother.smooth(speed),
+        vx=vx,
         vy=vy,
-        yaw_rate=smoother.smooth(rate),
+        yaw_rate=turning,
         yaw_acceleration=smoother.smooth(rate, 1),
         ax=ax,
-        ay=smoother.smooth(ay),
+        ay=lateral,
         vx_std=one * stds[0] * keep,
         vy_std=vy_std,
         yaw_rate_std=one * stds[1] * keep,
@@ -73,7 +91,23 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         good=even.good,
         smoother=smoother,
         noise=dict(zip(("speed_std", "yaw_rate_std", "ay_std"), stds, strict=True)),
-        notes=[*even.notes, how],
+        notes=notes,
+        ay_gain_std=0.0 if gain is None else abs(gain - 1.0),
+    )
+
+
+def _gain_in_words(gain: float, vehicle: Vehicle) -> str:
+    """What a lateral acceleration means that is not that of the motion."""
+    rolls = np.degrees(gain * vehicle.felt_acceleration - 1.0)
+    reason = (
+        f"a sensor that leans with a body that rolls by {rolls:.1f} deg per g "
+        f"(Vehicle.roll_gradient={np.radians(rolls) / GRAVITY:.2g}), a banked road, "
+        if rolls > 0
+        else "a banked road, "
+    )
+    return (
+        f"lateral_acceleration is {gain:.3f} times what speed and yaw_rate give: {reason}"
+        "or a gain or offset of a sensor. fy is off by as much, and fy_std holds that"
     )
 
 
@@ -86,7 +120,13 @@ def _filled(column: pd.Series) -> Array:
 
 
 def _lateral_speed(
-    table: pd.DataFrame, speed: Array, rate: Array, ay: Array, smoother: Smoother, stds: list[float]
+    table: pd.DataFrame,
+    recorded: Array,
+    speed: Array,
+    rate: Array,
+    ay: Array,
+    smoother: Smoother,
+    stds: list[float],
 ) -> tuple[Array, Array, str]:
     """Return the lateral speed, its standard deviation and where it comes from."""
     for name in ("lateral_speed", "sideslip"):
@@ -95,8 +135,13 @@ def _lateral_speed(
             std = white_noise_std(raw) * smoother.gain(0, 0)
             if name == "lateral_speed":
                 return smoother.smooth(raw), std * np.ones_like(raw), "lateral_speed as recorded"
-            value = smoother.smooth(speed * np.tan(raw))
-            return value, std * np.abs(speed), "lateral speed from the recorded sideslip"
+            value = smoother.smooth(recorded * np.tan(raw))
+            return value, std * np.abs(recorded), "lateral speed from the recorded sideslip"
+    beside = (
+        "; its slip_angle is not used: if that is the vehicle's sideslip, name it `sideslip`"
+        if "slip_angle" in table
+        else ""
+    )
     dt = smoother.dt
     steady = np.abs(smoother.smooth(rate)) < _STRAIGHT_YAW_RATE
     steady &= np.abs(smoother.smooth(ay)) < _STRAIGHT_ACCELERATION
@@ -104,7 +149,7 @@ def _lateral_speed(
     straight = np.convolve(steady, np.ones(width), "same") >= width - 0.5
     if not straight.any():
         raise RecordingError(
-            "no stretch of straight running, so the lateral speed cannot be integrated",
+            f"no stretch of straight running, so the lateral speed cannot be integrated{beside}",
             todo="add the pose, lateral_speed or sideslip, or record straight running too",
         )
     anchors = np.flatnonzero(straight)
@@ -125,5 +170,5 @@ def _lateral_speed(
     return (
         smoother.smooth(value),
         one_step * np.sqrt(steps),
-        "lateral speed integrated between stretches of straight running; road bank is taken as zero",
+        _INTEGRATED + beside,
     )

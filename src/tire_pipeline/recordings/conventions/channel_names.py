@@ -110,6 +110,9 @@ FURTHER: tuple[Channel, ...] = (
     Channel("yaw_rate", "rate", "rad/s", ()),
     Channel("lateral_acceleration", "acceleration", "m/s^2", ()),
     Channel("longitudinal_acceleration", "acceleration", "m/s^2", ()),
+    Channel("lateral_speed", "speed", "m/s", ()),
+    Channel("sideslip", "angle", "rad", ("vehicle sideslip angle", "body slip angle")),
+    Channel("wheel_surface_speed", "speed", "m/s", ()),
 )
 
 
