@@ -154,3 +154,26 @@ def test_the_mean_wheel_has_half_of_the_axles_load_and_forces(axle):
     assert any("mean of the axle's two wheels" in n for n in mean.attrs["notes"])
     with pytest.raises(RecordingError, match="wheels=4"):
         axle_recording(drive(), car, axle, wheels=4)
+
+
+@pytest.mark.parametrize(("factor", "said"), [(-1.0, "to the other side"), (np.degrees(1.0), "degrees")])
+@pytest.mark.parametrize("channel", ["lateral_speed", "sideslip"])
+def test_a_lateral_speed_that_the_acceleration_contradicts_is_refused(channel, factor, said):
+    there = replace(CAR, marker_offset=CAR.rear_length + 1.5)
+    log = drive(1.5)
+    log["sideslip"] = np.arctan2(log["lateral_speed"], log["speed"])
+    log = log.drop(columns={"lateral_speed", "sideslip"} - {channel})
+    axle_recording(log, there)
+    with pytest.raises(RecordingError, match=said):
+        axle_recording(log.assign(**{channel: log[channel] * factor}), there)
+
+
+def test_text_in_a_channel_is_refused():
+    with pytest.raises(RecordingError, match="speed of the drive holds text"):
+        axle_recording(drive().assign(speed="fast"), CAR)
+
+
+def test_a_tenth_of_the_sampling_rate_is_a_bandwidth():
+    log = drive().iloc[::10].reset_index(drop=True)
+    log["time"] = np.round(log["time"] + 1e-9 * np.sin(TIME[::10]), 10)
+    assert len(axle_recording(log, CAR, bandwidth=1.0)) > 20

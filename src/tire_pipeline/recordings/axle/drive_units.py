@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.conventions.drive_columns import DRIVE_CHANNELS
 from tire_pipeline.recordings.conventions.units import find_unit
 
 
@@ -16,7 +18,15 @@ def drive_in_si(drive: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
         A copy where anything was converted. Its ``attrs["units"]`` names the converted ones no more.
     notes : list of str
         What was converted.
+
+    Raises
+    ------
+    RecordingError
+        A channel holds text.
     """
+    text = [str(name) for name in drive if not pd.api.types.is_numeric_dtype(drive[name])]
+    if wrong := [name for name in text if name in DRIVE_CHANNELS]:
+        raise RecordingError(f"{', '.join(wrong)} of the drive holds text", todo="enter numbers")
     units = {name: find_unit(text) for name, text in drive.attrs.get("units", {}).items()}
     other = {n: u for n, u in units.items() if u and n in drive and (u.factor, u.offset) != (1.0, 0.0)}
     if not other:

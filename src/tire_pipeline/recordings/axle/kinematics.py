@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -15,6 +16,12 @@ Array = NDArray[np.float64]
 _UNITS_APART = 1.4
 # Below these (rms) the offsets of common sensors are as large as the signal: 0.3 deg/s at 30 m/s, 0.3 deg.
 _TURNS, _STEERS = 1.0, 0.005
+# Below it (rms, m/s^2) the change of a lateral speed is that of its noise.
+_CHANGES = 0.1
+# Of the acceleration that speed and yaw rate leave, noise and roll are a part.
+_CHANGES_ALIKE = 0.5
+# A sideslip in degrees is 57 times that in rad.
+_SIDESLIP_IN_DEGREES = 0.13
 # Cosine between two channels that show the same: else one of them is noise, or is another one.
 _ALIKE = 0.8
 # Understeer makes the road-wheel angle up to 4 times that of slow driving; steering ratios are 10 to 20.
@@ -28,21 +35,30 @@ _AS_IF = {
 }
 
 
-def acceleration_gain(measured: Array, kinematic: Array) -> float | None:
+def acceleration_gain(
+    measured: Array, turning: Array, changing: Sequence[Array], slips: bool
+) -> float | None:
     """Measured lateral acceleration over that of the motion, or None where the vehicle hardly turns.
 
     Parameters
     ----------
-    measured, kinematic : ndarray
-        m/s^2; the latter is speed times yaw rate, with the change of the lateral speed where it was recorded.
+    measured, turning : ndarray
+        m/s^2; the latter is speed times yaw rate.
+    changing : sequence of ndarray
+        What the rest of the acceleration, the change of the lateral speed, is made of: that change itself
+        where it was recorded, else what it follows from while slip is proportional to force.
+    slips : bool
+        Whether the lateral speed was recorded.
 
     Raises
     ------
     RecordingError
         They differ by what only another unit or sign explains.
     """
-    gain = _gain(measured, kinematic, _TURNS)
+    gain = _gain(*_without(changing, measured, turning), _TURNS)
     if gain is None or 1 / _UNITS_APART < gain < _UNITS_APART:
+        if slips:
+            _check_sideslip(measured, turning, changing[0])
         return gain
     likely = _likely_units(abs(gain))
     sign = "their signs differ (ISO 8855: yaw rate and lateral acceleration are positive to the left)"
@@ -51,6 +67,19 @@ def acceleration_gain(measured: Array, kinematic: Array) -> float | None:
         f"lateral_acceleration is {gain:.3g} times speed x yaw_rate, and should be about once: "
         + ("; ".join(reasons) or "one of the three has another unit"),
         todo="enter m/s, rad/s and m/s^2, in axes of ISO 8855",
+    )
+
+
+def _check_sideslip(measured: Array, turning: Array, changing: Array) -> None:
+    """Refuse a lateral speed whose change the acceleration contradicts: of another sign, or in degrees."""
+    gain = _gain(*_without([turning], measured, changing), _CHANGES, _CHANGES_ALIKE)
+    if gain is None or gain > _SIDESLIP_IN_DEGREES:
+        return
+    why = "it is counted to the other side" if gain < 0 else "it is in degrees"
+    raise RecordingError(
+        f"the lateral acceleration holds {gain:.3g} times the change of the lateral speed (or of speed x "
+        f"sideslip), and should hold it about once: {why}",
+        todo="enter the sideslip in rad, positive where the vehicle moves to its left (atan2(v_y, v_x))",
     )
 
 
@@ -78,13 +107,19 @@ def check_steering(steering: Array, turning: Array) -> None:
     )
 
 
-def _gain(channel: Array, reference: Array, level: float) -> float | None:
+def _without(others: Sequence[Array], *channels: Array) -> tuple[Array, ...]:
+    """What of channels is no linear combination of others."""
+    basis = np.linalg.qr(np.column_stack(others))[0]
+    return tuple(channel - basis @ (basis.T @ channel) for channel in channels)
+
+
+def _gain(channel: Array, reference: Array, level: float, alike: float = _ALIKE) -> float | None:
     """Least squares through zero; None where the reference is small or the channel shows another thing."""
     power, own = float(np.sum(reference**2)), float(np.sum(channel**2))
     if power <= reference.size * level**2 or own == 0:
         return None
     product = float(np.sum(channel * reference))
-    return product / power if abs(product) > _ALIKE * np.sqrt(power * own) else None
+    return product / power if abs(product) > alike * np.sqrt(power * own) else None
 
 
 def _likely_units(gain: float) -> str:

@@ -57,7 +57,7 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
     left = vehicle.marker_lateral
     speed, ay = recorded + left * rate, ay / vehicle.felt_acceleration + left * rate**2
     stds = [np.hypot(stds[0], left * stds[1]), stds[1], stds[2] / vehicle.felt_acceleration]
-    vy, vy_std, how = _lateral_speed(table, recorded, speed, rate, ay, smoother, stds)
+    vy, vy_std, how = _lateral_speed(table, recorded, speed, rate, ay, smoother, stds, vehicle)
     turning, vx = smoother.smooth(rate), smoother.smooth(speed)
     if "longitudinal_acceleration" in table:
         raw = _filled(table["longitudinal_acceleration"])
@@ -67,9 +67,11 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         ax = smoother.smooth(speed, 1) - turning * vy
         ax_std = stds[0] * slope
     lateral = smoother.smooth(ay)
-    changing = 0.0 if how.startswith(_INTEGRATED) else np.gradient(vy, smoother.dt)
+    slips = not how.startswith(_INTEGRATED)
+    follows = [vy] if slips else [turning, vx**2 * turning]
     notes, used = [*even.notes, how], even.good & (vx > 0)
-    gain = acceleration_gain(lateral[used], (turning * vx + changing)[used])
+    changing = [np.gradient(part, smoother.dt)[used] for part in follows]
+    gain = acceleration_gain(lateral[used], (turning * vx)[used], changing, slips)
     if gain is not None and abs(gain - 1.0) > _GAIN_NOTED:
         notes.append(_gain_in_words(gain, vehicle))
     one = np.ones_like(speed)
@@ -127,6 +129,7 @@ def _lateral_speed(
     ay: Array,
     smoother: Smoother,
     stds: list[float],
+    vehicle: Vehicle,
 ) -> tuple[Array, Array, str]:
     """Return the lateral speed, its standard deviation and where it comes from."""
     for name in ("lateral_speed", "sideslip"):
@@ -135,8 +138,15 @@ def _lateral_speed(
             std = white_noise_std(raw) * smoother.gain(0, 0)
             if name == "lateral_speed":
                 return smoother.smooth(raw), std * np.ones_like(raw), "lateral_speed as recorded"
+            moving = np.abs(raw[recorded > 0.5 * recorded.max()])
+            if np.quantile(moving, 0.98) > np.pi / 2:
+                raise RecordingError(
+                    f"`sideslip` reaches {np.quantile(moving, 0.98):.3g} rad", todo="enter rad, not degrees"
+                )
             value = smoother.smooth(recorded * np.tan(raw))
             return value, std * np.abs(recorded), "lateral speed from the recorded sideslip"
+    # Where nothing turns fast the rear axle hardly slips.
+    straight_vy = vehicle.marker_offset * smoother.smooth(rate)
     beside = (
         "; its slip_angle is not used: if that is the vehicle's sideslip, name it `sideslip`"
         if "slip_angle" in table
@@ -155,7 +165,7 @@ def _lateral_speed(
     anchors = np.flatnonzero(straight)
     raw = np.concatenate([[0.0], np.cumsum((ay - rate * speed)[1:] * dt)])
     # The drift is a straight line from one anchor to the next: a constant sensor offset.
-    value = raw - np.interp(np.arange(raw.size), anchors, raw[anchors])
+    value = raw - np.interp(np.arange(raw.size), anchors, (raw - straight_vy)[anchors])
     index = np.arange(raw.size)
     before = np.maximum.accumulate(np.where(straight, index, -1))
     after = np.minimum.accumulate(np.where(straight, index, raw.size)[::-1])[::-1]

@@ -8,6 +8,10 @@ POSE_COLUMNS = ("x", "y", "yaw")
 """Of a body whose path was recorded."""
 MOTION_CHANNELS = ("speed", "yaw_rate", "lateral_acceleration")
 """Of a body that carries its own sensors."""
+DRIVE_CHANNELS = frozenset(
+    ("time", *POSE_COLUMNS, *MOTION_CHANNELS, "longitudinal_acceleration", "lateral_speed", "sideslip")
+) | {"steering", "wheel_speed", "wheel_surface_speed"}
+"""All that the motion of a vehicle and the slip of its tires are computed from."""
 DART_POSE = {"vicon x": "x", "vicon y": "y", "vicon yaw": "yaw"}
 DART_CHANNELS = {
     "vel encoder": "wheel_surface_speed",
