@@ -177,3 +177,18 @@ def test_a_tenth_of_the_sampling_rate_is_a_bandwidth():
     log = drive().iloc[::10].reset_index(drop=True)
     log["time"] = np.round(log["time"] + 1e-9 * np.sin(TIME[::10]), 10)
     assert len(axle_recording(log, CAR, bandwidth=1.0)) > 20
+
+
+def test_an_integrated_lateral_speed_says_how_far_it_may_drift():
+    """Turns to one side between straights, felt by an accelerometer that leans with the body."""
+    rate = TURN * np.clip(np.sin(2 * np.pi * 0.1 * TIME), 0.0, None)
+    log = drive().assign(
+        yaw_rate=rate, lateral_acceleration=1.1 * SPEED * rate, longitudinal_acceleration=0.0
+    )
+    found = axle_recording(log.drop(columns="lateral_speed"), CAR)
+    true = np.arctan2(-CAR.rear_length * np.interp(found["time"], TIME, rate), SPEED)
+    off = np.abs(found["slip_angle"] - true)
+    assert np.mean(off < 2 * found["slip_angle_std"]) > 0.9
+    assert off.max() > 0.02
+    assert any("leans with the body" in note for note in found.attrs["notes"])
+    assert not any("times what speed" in note for note in found.attrs["notes"])

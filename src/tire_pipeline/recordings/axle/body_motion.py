@@ -21,6 +21,8 @@ from tire_pipeline.recordings.axle.vehicle import Vehicle
 Array = NDArray[np.float64]
 # Missing samples in a row that a straight line fills; longer ones are cut out.
 FILLED_SAMPLES = 2
+# Share of the largest speed below which samples are left out.
+SHARE_OF_SPEED_KEPT = 1 / 6
 
 
 @dataclass(frozen=True)

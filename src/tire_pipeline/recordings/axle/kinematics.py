@@ -23,7 +23,7 @@ _CHANGES_ALIKE = 0.5
 # A sideslip in degrees is 57 times that in rad.
 _SIDESLIP_IN_DEGREES = 0.13
 # Cosine between two channels that show the same: else one of them is noise, or is another one.
-_ALIKE = 0.8
+_SAME_MOTION = 0.8
 # Understeer makes the road-wheel angle up to 4 times that of slow driving; steering ratios are 10 to 20.
 _STEERING_WHEEL = 8.0
 _AS_IF = {
@@ -113,7 +113,7 @@ def _without(others: Sequence[Array], *channels: Array) -> tuple[Array, ...]:
     return tuple(channel - basis @ (basis.T @ channel) for channel in channels)
 
 
-def _gain(channel: Array, reference: Array, level: float, alike: float = _ALIKE) -> float | None:
+def _gain(channel: Array, reference: Array, level: float, alike: float = _SAME_MOTION) -> float | None:
     """Least squares through zero; None where the reference is small or the channel shows another thing."""
     power, own = float(np.sum(reference**2)), float(np.sum(channel**2))
     if power <= reference.size * level**2 or own == 0:

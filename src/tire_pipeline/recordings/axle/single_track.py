@@ -11,7 +11,12 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
+from tire_pipeline.recordings.axle.body_motion import (
+    SHARE_OF_SPEED_KEPT,
+    BodyMotion,
+    evenly_spaced,
+    from_pose,
+)
 from tire_pipeline.recordings.axle.drive_units import drive_in_si
 from tire_pipeline.recordings.axle.kinematics import check_steering
 from tire_pipeline.recordings.axle.sensor_motion import from_sensors
@@ -27,8 +32,6 @@ _WHEELS = {
     2: "the mean of the axle's two wheels; the load that one takes over from the other is not modelled",
 }
 _FORCES_AND_LOAD = ("fx", "fx_std", "fy", "fy_std", "fy_noise_std", "normal_load", "normal_load_std")
-# Share of the largest speed below which samples are left out.
-_SLOW = 1 / 6
 
 
 @dataclass(frozen=True)
@@ -192,7 +195,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
             raise RecordingError("`steering` holds no number", todo="enter road-wheel angles in rad")
         filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
         wheel = motion.smoother.smooth(filled)
-        ahead = motion.good & (motion.vx > _SLOW * np.quantile(motion.vx, 0.99))
+        ahead = motion.good & (motion.vx > SHARE_OF_SPEED_KEPT * np.quantile(motion.vx, 0.99))
         check_steering(wheel[ahead], (length * motion.yaw_rate / np.maximum(motion.vx, 1e-6))[ahead])
         slip = slip - wheel
         # Lateral force in the wheel's axes; the driving force's share is added with `fx`.
@@ -316,7 +319,7 @@ def _usable(
 ) -> tuple[NDArray[np.bool_], float]:
     """Which samples rest on no gap and are fast enough, and the least speed (m/s)."""
     fast = table["speed"].to_numpy()
-    limit = float(np.quantile(fast[motion.good], 0.99)) * _SLOW if motion.good.any() else 0.0
+    limit = float(np.quantile(fast[motion.good], 0.99)) * SHARE_OF_SPEED_KEPT if motion.good.any() else 0.0
     if vehicle.wheel_radius:
         limit = max(limit, motion.smoother.stop * 2 * np.pi * vehicle.wheel_radius)
     limit = limit if min_speed is None else min_speed
