@@ -43,7 +43,7 @@ def reader_of_drive(columns: Iterable[str]) -> str:
     held = set(columns)
     if held.issuperset(DART_COLUMNS):
         what, call = "a DART drive", "axle_recording(read_dart(path), DART_CAR)"
-    elif "time" in held and (held.issuperset(POSE_COLUMNS) or held.issuperset(MOTION_CHANNELS)):
+    elif "time" in held and (held.issuperset(POSE_COLUMNS) or "yaw_rate" in held):
         what, call = "the log of a driven vehicle", "axle_recording(recording, Vehicle(...))"
     else:
         return ""
