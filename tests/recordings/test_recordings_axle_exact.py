@@ -38,6 +38,15 @@ def test_wherever_the_marker_lies_the_axle_has_the_same_speed_slip_and_forces(ah
     assert front["fy"] == pytest.approx(825.0 * RATE * SPEED / np.cos(0.05), rel=5e-3)
 
 
+@pytest.mark.parametrize("ahead", [-0.5, 0.0, REAR_LENGTH, 2.5])
+def test_wherever_the_marker_lies_the_same_load_is_transferred(ahead: float):
+    vehicle = replace(CAR, marker_offset=ahead, cg_height=0.5)
+    front, rear = (axle_recording(circle(ahead), vehicle, axle).median() for axle in ("front", "rear"))
+    to_the_rear = -1500.0 * REAR_LENGTH * RATE**2 * 0.5 / 2.7
+    assert front["normal_load"] - 825.0 * G == pytest.approx(-to_the_rear, rel=0.02)
+    assert rear["normal_load"] - 675.0 * G == pytest.approx(to_the_rear, rel=0.02)
+
+
 @pytest.mark.parametrize("forward", [2.0, -2.0])
 def test_along_a_line_mass_times_acceleration_is_shared_and_moves_the_load(forward: float):
     x = 30.0 * TIME + 0.5 * forward * TIME**2

@@ -68,3 +68,15 @@ def test_a_table_without_a_force_is_no_vehicles_log():
     table = pd.DataFrame({"time": TIME, "slip_angle": 0.01, "normal_load": 4000.0, "speed": 12.0})
     advice = {issue.name: issue.advice for issue in check_recording(table)}["no_force_channel"]
     assert "axle_recording" not in advice
+
+
+def test_a_car_makers_log_in_usual_names_and_units_is_known_as_one(tmp_path):
+    file = tmp_path / "log.csv"
+    log = pd.DataFrame({"Time [s]": TIME, "VehicleSpeed [km/h]": 43.2, "YawRate [deg/s]": 17.2})
+    log = log.assign(**{"LatAcc [g]": 0.367, "LongAcc [g]": 0.0, "SteeringWheelAngle [deg]": 60.0})
+    log.assign(**{"Sideslip angle [deg]": 0.5}).to_csv(file, index=False)
+    recording = read_recording(file)
+    assert {"speed", "yaw_rate", "lateral_acceleration", "longitudinal_acceleration"} <= set(recording)
+    assert recording["lateral_acceleration"].median() == pytest.approx(3.6, rel=0.01)
+    advice = {issue.name: issue.advice for issue in check_recording(recording)}["no_force_channel"]
+    assert "axle_recording(recording, Vehicle(...))" in advice

@@ -21,6 +21,8 @@ from tire_pipeline.recordings.axle.vehicle import Vehicle
 Array = NDArray[np.float64]
 # Missing samples in a row that a straight line fills; longer ones are cut out.
 FILLED_SAMPLES = 2
+# Share of the largest speed below which samples are left out.
+SHARE_OF_SPEED_KEPT = 1 / 6
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,8 @@ class BodyMotion:
         m/s, m/s, rad/s, rad/s^2, m/s^2, m/s^2.
     good : ndarray of bool
         False where a sample rests on missing data.
+    ay_gain_std : float
+        Standard uncertainty of a factor on `ay`, the same throughout.
     """
 
     time: Array
@@ -59,6 +63,7 @@ class BodyMotion:
     smoother: Smoother
     noise: dict[str, float]
     notes: list[str]
+    ay_gain_std: float = 0.0
 
 
 def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:

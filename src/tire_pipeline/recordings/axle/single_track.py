@@ -11,14 +11,27 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
+from tire_pipeline.recordings.axle.body_motion import (
+    SHARE_OF_SPEED_KEPT,
+    BodyMotion,
+    evenly_spaced,
+    from_pose,
+)
+from tire_pipeline.recordings.axle.drive_units import drive_in_si
+from tire_pipeline.recordings.axle.kinematics import check_steering
 from tire_pipeline.recordings.axle.sensor_motion import from_sensors
+from tire_pipeline.recordings.axle.smoothing import white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
 from tire_pipeline.recordings.conventions.drive_columns import POSE_COLUMNS
 from tire_pipeline.unit_definitions import GRAVITY
 
 Array = NDArray[np.float64]
 Axle = Literal["front", "rear"]
+_WHEELS = {
+    1: "the whole axle: wheels=2 compares them with a file of one tire",
+    2: "the mean of the axle's two wheels; the load that one takes over from the other is not modelled",
+}
+_FORCES_AND_LOAD = ("fx", "fx_std", "fy", "fy_std", "fy_noise_std", "normal_load", "normal_load_std")
 
 
 @dataclass(frozen=True)
@@ -42,6 +55,7 @@ def axle_recording(
     bandwidth: float = 2.5,
     min_speed: float | None = None,
     rate: float | None = None,
+    wheels: Literal[1, 2] = 1,
 ) -> pd.DataFrame:
     """Slip, load and force of one axle of a driven vehicle, with their uncertainty.
 
@@ -77,6 +91,9 @@ def axle_recording(
         Samples a second in the result, Hz. Left out: twice the bandwidth, as samples nearer to each
         other share their filter and add no information. `float("inf")`: those of the drive (see
         `attrs["independent_samples"]`).
+    wheels : {1, 2}
+        Into how many tires the axle's load and forces are divided. 1: the axle is taken as one tire, for
+        a model that was fitted to the axle. 2: the mean of its two, for a file of one tire.
 
     Returns
     -------
@@ -85,9 +102,9 @@ def axle_recording(
         known), each of them with `<name>_std` (noise and unknown vehicle together) and, for
         `fy` and `slip_angle`, `<name>_noise_std` (differentiation noise alone); `turn_slip` 1/m,
         the curvature of the axle's path (yaw rate over speed, positive to the left); `yaw_rate`,
-        `lateral_acceleration`, and `segment`, a number for each uninterrupted piece. Forces are
-        those of the whole axle. `attrs` holds `bandwidth_hz`, `independent_samples`, `noise`,
-        `vehicle`, `notes`.
+        `lateral_acceleration`, and `segment`, a number for each uninterrupted piece. Forces and load
+        are those of the whole axle unless `wheels` is 2. `attrs` holds `bandwidth_hz`,
+        `independent_samples`, `noise`, `vehicle`, `notes`.
 
     Raises
     ------
@@ -126,15 +143,23 @@ def axle_recording(
             "the front axle's slip angle needs the road-wheel angle",
             todo="add a column `steering` in rad, or take the rear axle",
         )
+    if wheels not in (1, 2):
+        raise RecordingError(
+            f"wheels={wheels!r}", todo="choose 1 (the axle as one tire) or 2 (its mean wheel)"
+        )
+    drive, notes = drive_in_si(drive)
     if set(POSE_COLUMNS) <= set(drive.columns):
         motion = from_pose(drive, vehicle, bandwidth)
     else:
         motion = from_sensors(drive, vehicle, bandwidth)
     even = evenly_spaced(drive)[0]
     state = _axle_state(motion, vehicle, axle, even)
-    notes = list(motion.notes)
+    notes += motion.notes
     table = _table(motion, state)
     _add_longitudinal(table, motion, state, vehicle, axle, even, notes)
+    of_tires = table.columns.intersection(_FORCES_AND_LOAD)
+    table[of_tires] /= wheels
+    notes.append("load and forces are those of " + _WHEELS[wheels])
     return _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
 
 
@@ -145,6 +170,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     arm = vehicle.front_length if rear else vehicle.rear_length
     sign = -1.0 if rear else 1.0
     to_cg = vehicle.rear_length - motion.ahead
+    ax, ax_std = _ahead_at_cg(motion, to_cg)
     ay = motion.ay + to_cg * motion.yaw_acceleration
     fy = (mass * arm * ay + sign * vehicle.yaw_inertia * motion.yaw_acceleration) / length
     per_yaw = (mass * arm * to_cg + sign * vehicle.yaw_inertia) / length
@@ -152,8 +178,9 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     unsure = np.sqrt(
         (vehicle.inertia_std * motion.yaw_acceleration / length) ** 2
         + (vehicle.axle_mass_std * ay) ** 2
+        + (mass * arm / length * motion.ay_gain_std * motion.ay) ** 2
         + (mass * arm / length * motion.yaw_acceleration * vehicle.marker_offset_std) ** 2
-        + (mass * arm / length * motion.ax * vehicle.yaw_offset_std) ** 2
+        + (mass * arm / length * ax * vehicle.yaw_offset_std) ** 2
     )
     to_axle = (0.0 if rear else length) - motion.ahead
     vy = motion.vy + to_axle * motion.yaw_rate
@@ -168,21 +195,29 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
             raise RecordingError("`steering` holds no number", todo="enter road-wheel angles in rad")
         filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
         wheel = motion.smoother.smooth(filled)
+        ahead = motion.good & (motion.vx > SHARE_OF_SPEED_KEPT * np.quantile(motion.vx, 0.99))
+        check_steering(wheel[ahead], (length * motion.yaw_rate / np.maximum(motion.vx, 1e-6))[ahead])
         slip = slip - wheel
         # Lateral force in the wheel's axes; the driving force's share is added with `fx`.
         fy, noise, unsure = (v / np.cos(wheel) for v in (fy, noise, unsure))
     static = vehicle.front_mass if not rear else mass - vehicle.front_mass
     height = vehicle.cg_height or 0.0
-    shift = mass * motion.ax / length * (1.0 if rear else -1.0)
+    shift = mass * ax / length * (1.0 if rear else -1.0)
     load = static * GRAVITY + shift * height
     load_std = np.sqrt(
         (vehicle.axle_mass_std * GRAVITY) ** 2
         + (shift * vehicle.cg_height_std) ** 2
-        + (mass / length * height * motion.ax_std) ** 2
+        + (mass / length * height * ax_std) ** 2
     )
     return _AxleState(
         fy, noise, unsure, slip, slip_noise, slip_unsure, speed, load, load_std * np.ones_like(fy)
     )
+
+
+def _ahead_at_cg(motion: BodyMotion, to_cg: float) -> tuple[Array, Array]:
+    """Acceleration ahead at the centre of gravity, and its noise: the marker's way is another circle."""
+    ax = motion.ax - to_cg * motion.yaw_rate**2
+    return ax, np.hypot(motion.ax_std, 2.0 * to_cg * motion.yaw_rate * motion.yaw_rate_std)
 
 
 def _table(motion: BodyMotion, state: _AxleState) -> pd.DataFrame:
@@ -215,10 +250,10 @@ def _add_longitudinal(
     notes: list[str],
 ) -> None:
     """Slip ratio from a wheel speed, `fx` from the longitudinal acceleration, where known."""
-    surface, std = None, 0.0
+    surface, std = None, None
     if "wheel_surface_speed" in even:
         surface = even["wheel_surface_speed"].to_numpy(dtype=float)
-        std = float(even.attrs.get("wheel_surface_speed_std", 0.0))
+        std = even.attrs.get("wheel_surface_speed_std")
     elif "wheel_speed" in even and vehicle.wheel_radius:
         surface = even["wheel_speed"].to_numpy(dtype=float) * vehicle.wheel_radius
     elif "wheel_speed" in even:
@@ -227,16 +262,16 @@ def _add_longitudinal(
         steered = state.speed * np.cos(state.slip_angle)
         ahead = np.maximum(steered, 1e-6)
         table["slip_ratio"] = surface / ahead - 1.0
+        std = white_noise_std(surface) if std is None else float(std)
         noise = np.hypot(std, motion.vx_std * surface / ahead) / ahead
         table["slip_ratio_std"] = noise
     share = vehicle.front_drive_share
     if share is None:
         return
     part = share if axle == "front" else 1.0 - share
-    to_cg = vehicle.rear_length - motion.ahead
-    ax = motion.ax - to_cg * motion.yaw_rate**2
+    ax, ax_std = _ahead_at_cg(motion, vehicle.rear_length - motion.ahead)
     table["fx"] = part * vehicle.mass * ax
-    table["fx_std"] = part * vehicle.mass * motion.ax_std
+    table["fx_std"] = part * vehicle.mass * ax_std
     notes.append("fx: mass times acceleration, without aerodynamic drag and rolling resistance")
 
 
@@ -284,7 +319,7 @@ def _usable(
 ) -> tuple[NDArray[np.bool_], float]:
     """Which samples rest on no gap and are fast enough, and the least speed (m/s)."""
     fast = table["speed"].to_numpy()
-    limit = float(np.quantile(fast[motion.good], 0.99)) / 6 if motion.good.any() else 0.0
+    limit = float(np.quantile(fast[motion.good], 0.99)) * SHARE_OF_SPEED_KEPT if motion.good.any() else 0.0
     if vehicle.wheel_radius:
         limit = max(limit, motion.smoother.stop * 2 * np.pi * vehicle.wheel_radius)
     limit = limit if min_speed is None else min_speed

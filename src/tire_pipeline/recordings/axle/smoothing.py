@@ -134,7 +134,8 @@ def make_smoother(dt: float, bandwidth: float) -> Smoother:
     RecordingError
         The bandwidth is not between zero and a tenth of the sampling rate.
     """
-    if not 0 < bandwidth <= 0.1 / dt:
+    # A millionth: the interval is fitted to stamps.
+    if not 0 < bandwidth <= 0.1 / dt * (1 + 1e-6):
         raise RecordingError(
             f"a bandwidth of {bandwidth:g} Hz at {1 / dt:g} samples a second",
             todo=f"choose one above 0 and up to {0.1 / dt:g} Hz",

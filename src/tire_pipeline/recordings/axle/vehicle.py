@@ -6,6 +6,10 @@ import math
 from dataclasses import dataclass, fields
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.unit_definitions import GRAVITY
+
+LARGEST_ROLL_GRADIENT = 0.05
+"""rad per m/s^2: 28 deg per g, several times that of soft cars."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,9 @@ class Vehicle:
     front_drive_share : float, optional
         Share of the total longitudinal force that the front axle carries (0 to 1). Without it there is no
         `fx`.
+    roll_gradient : float, optional
+        Roll of the body under lateral acceleration, rad per m/s^2 (6 deg per g: 0.0107). An accelerometer
+        that leans with the body feels a part of gravity, which is taken off. 0 for one that is kept level.
     wheel_radius : float, optional
         Effective rolling radius, m, for wheel speeds in rad/s.
 
@@ -79,6 +86,7 @@ class Vehicle:
     yaw_offset_std: float = 0.0
     front_drive_share: float | None = None
     wheel_radius: float | None = None
+    roll_gradient: float = 0.0
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -90,6 +98,8 @@ class Vehicle:
                 raise RecordingError(
                     f"Vehicle.{name} is {getattr(self, name)}", todo="use a positive number (SI)"
                 )
+        if not 0 <= self.roll_gradient <= LARGEST_ROLL_GRADIENT:
+            raise RecordingError(f"Vehicle.roll_gradient is {self.roll_gradient}", todo="use rad per m/s^2")
         if self.front_mass >= self.mass:
             raise RecordingError(
                 f"the front axle carries {self.front_mass} kg of {self.mass} kg in all",
@@ -105,6 +115,11 @@ class Vehicle:
     def rear_length(self) -> float:
         """Distance from the centre of gravity to the rear axle, m."""
         return self.wheelbase * self.front_mass / self.mass
+
+    @property
+    def felt_acceleration(self) -> float:
+        """Lateral acceleration that a sensor on the rolling body shows, over the true one."""
+        return 1.0 + GRAVITY * self.roll_gradient
 
     @property
     def inertia_std(self) -> float:

@@ -54,7 +54,18 @@ CANONICAL: tuple[Channel, ...] = (
         "speed",
         "speed",
         "m/s",
-        ("LONGVEL", "TRAJVELW", "TRAJVELH", "TRAJVELC", "V", "VX", "velocity", "road speed", "belt speed"),
+        (
+            "LONGVEL",
+            "TRAJVELW",
+            "TRAJVELH",
+            "TRAJVELC",
+            "V",
+            "VX",
+            "velocity",
+            "road speed",
+            "belt speed",
+            "vehicle speed",
+        ),
     ),
     Channel(
         "pressure",
@@ -106,10 +117,15 @@ FURTHER: tuple[Channel, ...] = (
     Channel("simulated_fx", "force", "N", ("fx_simulated", "sim_fx")),
     Channel("simulated_fy", "force", "N", ("fy_simulated", "sim_fy")),
     Channel("simulated_mz", "moment", "N m", ("mz_simulated", "sim_mz")),
-    Channel("steering", "angle", "rad", ()),
+    Channel("steering", "angle", "rad", ("road wheel angle",)),
     Channel("yaw_rate", "rate", "rad/s", ()),
-    Channel("lateral_acceleration", "acceleration", "m/s^2", ()),
-    Channel("longitudinal_acceleration", "acceleration", "m/s^2", ()),
+    Channel("lateral_acceleration", "acceleration", "m/s^2", ("LatAcc", "lateral accel", "lat accel")),
+    Channel(
+        "longitudinal_acceleration", "acceleration", "m/s^2", ("LongAcc", "longitudinal accel", "long accel")
+    ),
+    Channel("lateral_speed", "speed", "m/s", ()),
+    Channel("sideslip", "angle", "rad", ("vehicle sideslip angle", "body slip angle")),
+    Channel("wheel_surface_speed", "speed", "m/s", ()),
 )
 
 

@@ -8,6 +8,10 @@ POSE_COLUMNS = ("x", "y", "yaw")
 """Of a body whose path was recorded."""
 MOTION_CHANNELS = ("speed", "yaw_rate", "lateral_acceleration")
 """Of a body that carries its own sensors."""
+DRIVE_CHANNELS = frozenset(
+    ("time", *POSE_COLUMNS, *MOTION_CHANNELS, "longitudinal_acceleration", "lateral_speed", "sideslip")
+) | {"steering", "wheel_speed", "wheel_surface_speed"}
+"""All that the motion of a vehicle and the slip of its tires are computed from."""
 DART_POSE = {"vicon x": "x", "vicon y": "y", "vicon yaw": "yaw"}
 DART_CHANNELS = {
     "vel encoder": "wheel_surface_speed",
@@ -39,7 +43,7 @@ def reader_of_drive(columns: Iterable[str]) -> str:
     held = set(columns)
     if held.issuperset(DART_COLUMNS):
         what, call = "a DART drive", "axle_recording(read_dart(path), DART_CAR)"
-    elif "time" in held and (held.issuperset(POSE_COLUMNS) or held.issuperset(MOTION_CHANNELS)):
+    elif "time" in held and (held.issuperset(POSE_COLUMNS) or "yaw_rate" in held):
         what, call = "the log of a driven vehicle", "axle_recording(recording, Vehicle(...))"
     else:
         return ""
