@@ -18,8 +18,8 @@ ANGLE_CHANNELS = ("slip_angle", "camber")
 OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 """What a recording may be looked at over: an operating point, and degC."""
 
-INPUT_CHANNELS = (*OPERATING_CHANNELS, "turn_slip")
-"""All that a force may depend on: the same, and 1/m."""
+INPUT_CHANNELS = (*OPERATING_CHANNELS, "turn_slip", "load_transfer")
+"""All that a force may depend on: the same, 1/m, and N between a wheel's load and the mean of its axle."""
 
 TANGENTIAL_FORCES = ("fx", "fy")
 """Forces in the plane of the road, N."""
@@ -35,7 +35,7 @@ FORCE_CHANNELS = (*TANGENTIAL_FORCES, *MOMENT_CHANNELS)
 """Forces (N) and moments (N m) in ISO W axes."""
 
 RECORDED_CHANNELS = ("time", *INPUT_CHANNELS, *FORCE_CHANNELS)
-"""Columns of a recording that have a meaning: s, an operating point, 1/m, forces and moments."""
+"""Columns of a recording that have a meaning: s, an operating point, 1/m, N, forces and moments."""
 
 SLIP_OF_FORCE = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}
 """The slip that each curve at pure slip runs over, in the order in which curves are shown."""
@@ -74,6 +74,7 @@ SHOWN_UNITS = {
     "pressure": ShownUnit(1e-3, "kPa", "pressure"),
     "tread_temperature": ShownUnit(1.0, "degC", "tread temperature"),
     "turn_slip": ShownUnit(1.0, "1/m", "path curvature"),
+    "load_transfer": ShownUnit(1e-3, "kN", "load transfer"),
     "fx": ShownUnit(1e-3, "kN", "longitudinal force Fx"),
     "fy": ShownUnit(1e-3, "kN", "lateral force Fy"),
     "mz": ShownUnit(1.0, "N m", "aligning moment Mz"),

@@ -12,7 +12,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.corrected.apart import apart, in_words
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.recording.each_run import check_conventions
+from tire_pipeline.mismatch.each_run import check_conventions
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.headline.sentences import on_each
 from tire_pipeline.mismatch.several import predict_held_out

@@ -76,10 +76,6 @@ class _Axes(click.ParamType):
 
     name = "axes"
 
-    def get_metavar(self, *_: Any) -> str:
-        """What the help shows."""
-        return "[iso|sae]"
-
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the text with axes in capitals."""
         run, colon, axes = value.rpartition(":")
@@ -115,6 +111,7 @@ def reading_options(function: F) -> F:
             "--axes",
             type=_Axes(),
             multiple=True,
+            metavar="[ISO|SAE]",
             help="Axes of the file, if the names of its channels do not tell. Default: ISO, with a note.",
         ),
     ):

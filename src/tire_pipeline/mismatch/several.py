@@ -14,10 +14,10 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.apart import Apart, apart, in_words
 from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.each_run import check_conventions, check_copies
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.explainer import Explainer
 from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
-from tire_pipeline.mismatch.recording.each_run import check_conventions, check_copies
 from tire_pipeline.mismatch.recording.given import SPIKES, usable_numbers
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.recording.prepare import prepare
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "
     "speed_dependence relaxation_length wear plysteer_conicity turn_slip "
-    "nonuniformity compliance surface_change rolling_resistance"
+    "nonuniformity compliance surface_change rolling_resistance axle_load_transfer"
 ).split()
 ARTEFACTS = (
     "force_offset force_gain load_gain load_offset slip_angle_offset slip_ratio_offset camber_offset "

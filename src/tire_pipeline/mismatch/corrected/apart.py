@@ -10,6 +10,7 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import rms
@@ -106,15 +107,16 @@ def _fitted(columns: Array, left: Array) -> Array:
 
 
 def _without_seams(changes: tuple[Change, ...], joined: pd.DataFrame) -> tuple[Change, ...]:
-    """Leave out a surface that changes between two recordings."""
+    """Leave out what jumps between two recordings, such as a surface."""
     if "time" not in joined:
         return changes
     time = joined["time"].to_numpy(dtype=float)
     ends = [(time[part["first"] - 1], time[part["first"]]) for part in joined.attrs["joined"][1:]]
 
     def between(name: str, parameters: Mapping[str, float]) -> bool:
-        moment = parameters.get("moment", np.nan) if name == "surface_change" else np.nan
-        return any(end - (begin - end) <= moment <= begin + (begin - end) for end, begin in ends)
+        moments = [parameters[stepped] for stepped in catalogue()[name].stepped]
+        gaps = [(end - (begin - end), begin + (begin - end)) for end, begin in ends]
+        return any(low <= moment <= high for low, high in gaps for moment in moments)
 
     return tuple((name, parameters) for name, parameters in changes if not between(name, parameters))
 

@@ -79,7 +79,8 @@ class State:
 
     Similarity (Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2): a tire whose friction is m
     times and whose slip stiffness is k times the model's gives ``m F(slip k / m)``; effects add to
-    the logarithms of m and k.
+    the logarithms of m and k. ``load_apart`` (N) is by how much the loads of two wheels differ from their
+    mean, whose forces are the mean of both.
     """
 
     slip_angle: Array
@@ -93,6 +94,7 @@ class State:
     coefficients: dict[str, float] = field(default_factory=dict)
     turn_slip: Array | None = None
     added_y: Array | float = 0.0
+    load_apart: Array | None = None
     forces: dict[str, Array] = field(default_factory=dict)
 
 

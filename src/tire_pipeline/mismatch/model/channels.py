@@ -13,7 +13,7 @@ import scipy
 from tire_pipeline.channels import FORCE_OF_SLIP
 
 Array = np.ndarray
-_RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1}
+_RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1, "load_transfer": 0.1}
 ABSOLUTE_SPREAD = {
     "camber": 0.008,
     "tread_temperature": 4.0,

@@ -19,7 +19,7 @@ OF_CAMBER = {
     "mz": frozenset("QBZ4 QBZ5 QDZ3 QDZ4 QDZ8 QDZ9 QDZ10 QDZ11 QEZ5 QHZ3 QHZ4 SSZ3 SSZ4".split()),
 }
 """Coefficients through which each force of a model, and its aligning moment, answers to camber."""
-_LEAST_STAY = 0.1
+_SHARE_OF_LEVEL = 0.1
 """Share of a recording that makes a level: so there are ten at most, and each costs a search."""
 _PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
 
@@ -252,7 +252,7 @@ def levels(x: Array, least: float) -> list[float]:
     [2.0, 3.0, 2.5]
     """
     pieces = np.split(np.sort(x), np.flatnonzero(np.diff(np.sort(x)) > least) + 1)
-    kept = [piece for piece in pieces if piece.size >= _LEAST_STAY * x.size]
+    kept = [piece for piece in pieces if piece.size >= _SHARE_OF_LEVEL * x.size]
     return [float(np.median(piece)) for piece in sorted(kept, key=len, reverse=True)]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -74,15 +74,20 @@ class BaseSimulation:
     def forces(self, state: State) -> dict[str, Array]:
         """Return fx and fy, N, by similarity: friction m and stiffness k turn F(s) into m F(s k / m)."""
         m_x, ratio_x, m_y, ratio_y = _similarity(state)
-        forces = plain_forces(
-            self._tire(state),
-            slip_angle=state.slip_angle * ratio_y,
-            slip_ratio=state.slip_ratio * ratio_x,
-            camber=state.camber,
-            normal_load=state.normal_load,
-            speed=self.nominal.model_speed,
-            pressure=self.nominal.model_pressure,
-        )
+        tire = self._tire(state)
+
+        def at(load: Array) -> dict[str, Array]:
+            return plain_forces(
+                tire,
+                slip_angle=state.slip_angle * ratio_y,
+                slip_ratio=state.slip_ratio * ratio_x,
+                camber=state.camber,
+                normal_load=load,
+                speed=self.nominal.model_speed,
+                pressure=self.nominal.model_pressure,
+            )
+
+        forces = _mean_of_wheels(state, at)
         fx = forces["fx"] * np.exp(m_x)
         fy = (forces["fy"] + state.added_y) * np.exp(m_y)
         if self.beside is not None:
@@ -99,19 +104,24 @@ class BaseSimulation:
         m_x, ratio_x, m_y, ratio_y = _similarity(state)
         known = (("speed", self.nominal.model_speed), ("pressure", self.nominal.model_pressure))
         more: dict[str, Any] = {n: v for n, v in known if v is not None}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            out = self._tire(state).forces(
-                slip_angle=state.slip_angle * ratio_y,
-                slip_ratio=state.slip_ratio * ratio_x,
-                camber=state.camber,
-                normal_load=state.normal_load,
-                limits="ignore",
-                outputs=tuple(names),
-                **more,
-            )
+        tire = self._tire(state)
+
+        def at(load: Array) -> dict[str, Array]:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                out = tire.forces(
+                    slip_angle=state.slip_angle * ratio_y,
+                    slip_ratio=state.slip_ratio * ratio_x,
+                    camber=state.camber,
+                    normal_load=load,
+                    limits="ignore",
+                    outputs=tuple(names),
+                    **more,
+                )
+            return {n: np.asarray(getattr(out, n), float) for n in names}
+
         scale = {"mx": np.exp(m_y), "my": np.exp(m_x), "mz": np.exp(m_y)}
-        return {n: np.asarray(getattr(out, n), float) * scale[n] for n in names}
+        return {n: moment * scale[n] for n, moment in _mean_of_wheels(state, at).items()}
 
     def _tire(self, state: State) -> TireModel:
         tire = self.nominal.tire
@@ -227,6 +237,15 @@ class BaseSimulation:
         """|dFx/d slip ratio| over the slip stiffness at nominal load, at most 2."""
         share = np.abs(self.slope("slip_ratio")["fx"]) / self._stiffness("fx")
         return np.minimum(share, 2.0)
+
+
+def _mean_of_wheels(state: State, at: Callable[[Array], dict[str, Array]]) -> dict[str, Array]:
+    """Return what one wheel gives at its load, or the mean of two that share it unevenly."""
+    if state.load_apart is None:
+        return at(state.normal_load)
+    apart = np.minimum(state.load_apart, state.normal_load)
+    more, less = at(state.normal_load + apart), at(state.normal_load - apart)
+    return {name: 0.5 * (more[name] + less[name]) for name in more}
 
 
 def _similarity(state: State) -> tuple[Array, Array, Array, Array]:

@@ -46,8 +46,8 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
     """Return the named set without those effects whose correction does not help on unseen sweeps.
 
     Both have to be confirmed there: the whole choice, made again without them, and the very effects that are
-    added, fitted without them. So much of each as is added has to help on average beside the others. The effect goes first
-    without which the others leave least.
+    added, fitted without them. So much of each as is added has to help on average beside the others. The
+    effect goes first without which the others leave least.
 
     Parameters
     ----------

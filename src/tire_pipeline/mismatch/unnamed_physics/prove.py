@@ -25,7 +25,7 @@ _LEAST_GONE = 0.03
 _LEVEL_OF_PROOF = CHANCE / 9.0
 """Of the test over sweeps, of which a force has nine: two views of all forces and one of it alone, each with
 one term, two and three."""
-_DRAWS = round(CHANCE**-3)
+_SIGNS_DRAWN = round(CHANCE**-3)
 """Of signs: with so many a chance at the level of proof is known to a fifth of itself."""
 _NEAR_MOST = 0.95
 
@@ -154,9 +154,9 @@ def chance_of_no_gain(gain: Array) -> float:
         return 1.0
     if 2.0**-gain.size > _LEVEL_OF_PROOF:
         return _chance_by_t(gain)
-    signs = np.random.default_rng(0).choice((-1.0, 1.0), (_DRAWS, gain.size))
+    signs = np.random.default_rng(0).choice((-1.0, 1.0), (_SIGNS_DRAWN, gain.size))
     as_large = signs @ gain >= gain.sum() - np.finfo(float).eps * np.abs(gain).sum() * gain.size
-    return float((1 + as_large.sum()) / (1 + _DRAWS))
+    return float((1 + as_large.sum()) / (1 + _SIGNS_DRAWN))
 
 
 def _chance_by_t(gain: Array) -> float:

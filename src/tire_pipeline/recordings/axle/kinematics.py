@@ -55,7 +55,8 @@ def acceleration_gain(
     RecordingError
         They differ by what only another unit or sign explains.
     """
-    gain = _gain(*_without(changing, measured, turning), _TURNS)
+    channel, reference = _without(changing, measured, turning)
+    gain = _gain(channel, reference, _TURNS)
     if gain is None or 1 / _UNITS_APART < gain < _UNITS_APART:
         if slips:
             _check_sideslip(measured, turning, changing[0])
@@ -72,7 +73,8 @@ def acceleration_gain(
 
 def _check_sideslip(measured: Array, turning: Array, changing: Array) -> None:
     """Refuse a lateral speed whose change the acceleration contradicts: of another sign, or in degrees."""
-    gain = _gain(*_without([turning], measured, changing), _CHANGES, _CHANGES_ALIKE)
+    channel, reference = _without([turning], measured, changing)
+    gain = _gain(channel, reference, _CHANGES, _CHANGES_ALIKE)
     if gain is None or gain > _SIDESLIP_IN_DEGREES:
         return
     why = "it is counted to the other side" if gain < 0 else "it is in degrees"

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 Axle = Literal["front", "rear"]
 _WHEELS = {
     1: "the whole axle: wheels=2 compares them with a file of one tire",
-    2: "the mean of the axle's two wheels; the load that one takes over from the other is not modelled",
+    2: "the mean of the axle's two wheels",
 }
 _FORCES_AND_LOAD = ("fx", "fx_std", "fy", "fy_std", "fy_noise_std", "normal_load", "normal_load_std")
 
@@ -93,7 +93,9 @@ def axle_recording(
         `attrs["independent_samples"]`).
     wheels : {1, 2}
         Into how many tires the axle's load and forces are divided. 1: the axle is taken as one tire, for
-        a model that was fitted to the axle. 2: the mean of its two, for a file of one tire.
+        a model that was fitted to the axle. 2: the mean of its two, for a file of one tire; then
+        `load_transfer` (N) is added, by how much their loads differ from the mean where each axle takes
+        half, if `vehicle` has `cg_height` and `track`.
 
     Returns
     -------
@@ -160,7 +162,21 @@ def axle_recording(
     of_tires = table.columns.intersection(_FORCES_AND_LOAD)
     table[of_tires] /= wheels
     notes.append("load and forces are those of " + _WHEELS[wheels])
+    if wheels == 2:
+        _add_load_transfer(table, motion, vehicle, notes)
     return _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
+
+
+def _add_load_transfer(table: pd.DataFrame, motion: BodyMotion, vehicle: Vehicle, notes: list[str]) -> None:
+    """By how much the loads of the two wheels differ from their mean, if each axle takes half of it."""
+    if vehicle.cg_height is None or vehicle.track is None:
+        notes.append(
+            "without Vehicle.cg_height and track the load that one wheel takes over from the other is "
+            "unknown: it looks like less friction in fast turns"
+        )
+        return
+    at_cg = motion.ay + (vehicle.rear_length - motion.ahead) * motion.yaw_acceleration
+    table["load_transfer"] = np.abs(vehicle.mass * at_cg * vehicle.cg_height / (2.0 * vehicle.track))
 
 
 def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataFrame) -> _AxleState:

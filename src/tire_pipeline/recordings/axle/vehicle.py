@@ -31,7 +31,7 @@ class Vehicle:
     axle_mass_std : float, optional
         Standard uncertainty of the mass that each axle carries, kg.
     track : float, optional
-        Distance between left and right wheels, m; carried along, not used by the single track.
+        Distance between left and right wheels, m: what the load that one takes over from the other rests on.
     cg_height, cg_height_std : float, optional
         Height of the centre of gravity, m. Without it no load is transferred between the axles.
     marker_offset, marker_lateral : float, optional

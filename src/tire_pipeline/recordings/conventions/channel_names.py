@@ -126,6 +126,7 @@ FURTHER: tuple[Channel, ...] = (
     Channel("lateral_speed", "speed", "m/s", ()),
     Channel("sideslip", "angle", "rad", ("vehicle sideslip angle", "body slip angle")),
     Channel("wheel_surface_speed", "speed", "m/s", ()),
+    Channel("load_transfer", "force", "N", ()),
 )
 
 
