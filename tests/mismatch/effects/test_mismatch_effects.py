@@ -64,6 +64,7 @@ def every_channel(tire, record):
     forces = model.forces(**inputs)
     slow = {"turn_slip": 0.01 * np.sin(0.7 * t), "speed": 16.7 + 3.0 * np.sin(t / 9.0)}
     slow["tread_temperature"] = 50.0 + 10.0 * np.sin(t / 20.0)
+    slow["load_transfer"] = 600.0 * np.sin(0.7 * t) ** 2
     return prepare(model, recording.assign(**inputs, **slow, fx=forces.fx, fy=forces.fy)).data
 
 

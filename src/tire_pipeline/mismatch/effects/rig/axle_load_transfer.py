@@ -30,7 +30,7 @@ class AxleLoadTransfer(Effect):
         "roll stiffness distributions of cars: 35 to 65% at one axle, a share of 0.7 to 1.3; wide, so "
         "that it is named where it shows"
     )
-    parameters = (Parameter("share", "1", 0.0, 2.0, 0.02, prior=1.0),)
+    parameters = (Parameter("share", "1", 0.0, 2.0, 0.002, prior=1.0),)
     looks_like = {
         "friction_scale": "a friction factor is there at small lateral accelerations, too",
         "load_sensitivity": "another change with load shows while driving straight ahead and braking, too",
