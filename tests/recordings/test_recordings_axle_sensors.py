@@ -192,3 +192,18 @@ def test_an_integrated_lateral_speed_says_how_far_it_may_drift():
     assert off.max() > 0.02
     assert any("leans with the body" in note for note in found.attrs["notes"])
     assert not any("times what speed" in note for note in found.attrs["notes"])
+
+
+@pytest.mark.parametrize("axle", ["front", "rear"])
+def test_the_mean_wheel_knows_the_load_that_one_takes_over_from_the_other(axle):
+    """Both axles balance the moment of the lateral acceleration about the road: m a_y h = 2 dFz t."""
+    car = replace(CAR, track=1.5)
+    mean = axle_recording(drive(), car, axle, wheels=2)
+    expected = 1500.0 * np.abs(mean["lateral_acceleration"]) * 0.5 / (2.0 * 1.5)
+    np.testing.assert_allclose(mean["load_transfer"], expected, atol=2.0)
+    assert mean.attrs["assumed"][1] == "load and forces are those of the mean of the axle's two wheels"
+    for unknown in (replace(car, track=None), replace(car, cg_height=None)):
+        without = axle_recording(drive(), unknown, axle, wheels=2)
+        assert "load_transfer" not in without
+        assert any("looks like less friction" in note for note in without.attrs["notes"])
+    assert "load_transfer" not in axle_recording(drive(), car, axle)

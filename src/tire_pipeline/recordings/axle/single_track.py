@@ -31,6 +31,7 @@ _WHEELS = {
     1: "the whole axle: wheels=2 compares them with a file of one tire",
     2: "the mean of the axle's two wheels",
 }
+_AXES = "columns in ISO W axes and SI units, from the motion of a vehicle"
 _FORCES_AND_LOAD = ("fx", "fx_std", "fy", "fy_std", "fy_noise_std", "normal_load", "normal_load_std")
 
 
@@ -106,7 +107,7 @@ def axle_recording(
         the curvature of the axle's path (yaw rate over speed, positive to the left); `yaw_rate`,
         `lateral_acceleration`, and `segment`, a number for each uninterrupted piece. Forces and load
         are those of the whole axle unless `wheels` is 2. `attrs` holds `bandwidth_hz`,
-        `independent_samples`, `noise`, `vehicle`, `notes`.
+        `independent_samples`, `noise`, `vehicle`, `notes`, and `assumed`, which a report shows.
 
     Raises
     ------
@@ -164,7 +165,9 @@ def axle_recording(
     notes.append("load and forces are those of " + _WHEELS[wheels])
     if wheels == 2:
         _add_load_transfer(table, motion, vehicle, notes)
-    return _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
+    out = _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
+    out.attrs["assumed"] = [_AXES, f"load and forces are those of {_WHEELS[wheels]}"]
+    return out
 
 
 def _add_load_transfer(table: pd.DataFrame, motion: BodyMotion, vehicle: Vehicle, notes: list[str]) -> None:
