@@ -31,7 +31,7 @@ _WHEELS = {
     1: "the whole axle: wheels=2 compares them with a file of one tire",
     2: "the mean of the axle's two wheels",
 }
-_AXES = "columns in ISO W axes and SI units, from the motion of a vehicle"
+_READ_AS = "columns in ISO W axes and SI units, from the motion of a vehicle"
 _FORCES_AND_LOAD = ("fx", "fx_std", "fy", "fy_std", "fy_noise_std", "normal_load", "normal_load_std")
 
 
@@ -166,7 +166,7 @@ def axle_recording(
     if wheels == 2:
         _add_load_transfer(table, motion, vehicle, notes)
     out = _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
-    out.attrs["assumed"] = [_AXES, f"load and forces are those of {_WHEELS[wheels]}"]
+    out.attrs["assumed"] = [_READ_AS, f"load and forces are those of {_WHEELS[wheels]}"]
     return out
 
 
