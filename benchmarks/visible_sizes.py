@@ -50,10 +50,10 @@ FOUND, SIZES, TABLE = (
     RESULTS / name for name in ("visible_found.csv", "visible_sizes.csv", "visible_sizes.txt")
 )
 SEEDS = {
-    "simulated": range(72_400, 72_412),
-    "calspan": range(72_500, 72_504),
-    "dart": range(72_600, 72_603),
-    "tydex": range(72_700, 72_702),
+    "simulated": range(73_400, 73_412),
+    "calspan": range(73_500, 73_504),
+    "dart": range(73_600, 73_603),
+    "tydex": range(73_700, 73_702),
 }
 ROWS = (1000, 5000)
 """Of a simulated recording: an explanation of a longer one takes ten times as long."""
