@@ -67,4 +67,6 @@ def test_another_friction_is_named_beside_it(tire):
 def test_without_the_channel_it_cannot_be_tested(tire):
     report = explain_mismatch(tire, axle(share=0.0).drop(columns="load_transfer"))
     assert report.sets == []
-    assert "load transfer between the wheels of the axle" in " ".join(report.notes)
+    assert "load transfer between the wheels of the axle – only an axle of a vehicle has it" in " ".join(
+        report.notes
+    )

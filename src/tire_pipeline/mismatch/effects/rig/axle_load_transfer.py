@@ -38,6 +38,10 @@ class AxleLoadTransfer(Effect):
     experiment = "drive the same slip angles slowly in a tight circle and fast in a wide one"
     order = 9
 
+    def absent(self, data: Context) -> str | None:
+        """Not where one wheel was measured: on a rig, or on a vehicle without the channel."""
+        return None if data.has("load_transfer") else "only an axle of a vehicle has it"
+
     def starts(self, data: Context) -> list[dict[str, float]]:
         """Half at each axle."""
         return [{"share": 1.0}]
