@@ -3,18 +3,16 @@
 import numpy as np
 import pandas as pd
 import pytest
+import small_rig
 
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import explain_mismatch
 
 COEFFICIENTS = {
-    "FNOMIN": 4000.0,
-    "UNLOADED_RADIUS": 0.32,
-    "LONGVL": 16.7,
-    "PCY1": 1.35,
-    "PDY1": 1.02,
+    **small_rig.COEFFICIENTS,
     "PDY2": -0.25,
     "PEY1": -1.0,
+    "PEY2": 0.0,
     "PKY1": -20.0,
     "PKY2": 1.6,
 }

@@ -112,10 +112,10 @@ def _without_seams(changes: tuple[Change, ...], joined: pd.DataFrame) -> tuple[C
         return changes
     time = joined["time"].to_numpy(dtype=float)
     ends = [(time[part["first"] - 1], time[part["first"]]) for part in joined.attrs["joined"][1:]]
+    gaps = [(end - (begin - end), begin + (begin - end)) for end, begin in ends]
 
     def between(name: str, parameters: Mapping[str, float]) -> bool:
         moments = [parameters[stepped] for stepped in catalogue()[name].stepped]
-        gaps = [(end - (begin - end), begin + (begin - end)) for end, begin in ends]
         return any(low <= moment <= high for low, high in gaps for moment in moments)
 
     return tuple((name, parameters) for name, parameters in changes if not between(name, parameters))

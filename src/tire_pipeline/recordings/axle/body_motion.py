@@ -66,6 +66,11 @@ class BodyMotion:
     ay_gain_std: float = 0.0
 
 
+def fast_and_good(vx: Array, good: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the samples that rest on no missing data and are fast enough to be kept."""
+    return good & (vx > SHARE_OF_SPEED_KEPT * np.quantile(vx, 0.99))
+
+
 def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:
     """Put a drive on an even time base; samples that are not there become NaN.
 

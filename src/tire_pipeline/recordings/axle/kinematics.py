@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.unit_definitions import GRAVITY
+from tire_pipeline.unit_definitions import DEGREE, GRAVITY, MILE
 
 Array = NDArray[np.float64]
 # No two units of one of these channels lie nearer to each other than this squared (m/s and knots: 1.94).
@@ -28,9 +28,9 @@ _SAME_MOTION = 0.8
 _STEERING_WHEEL = 8.0
 _AS_IF = {
     "lateral_acceleration in g": 1 / GRAVITY,
-    "yaw_rate in deg/s": np.pi / 180,
+    "yaw_rate in deg/s": DEGREE,
     "speed in km/h": 1 / 3.6,
-    "speed in mph": 0.44704,
+    "speed in mph": MILE / 3600,
     "speed in mm/s": 1e-3,
 }
 

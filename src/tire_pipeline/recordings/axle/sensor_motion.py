@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axle.body_motion import SHARE_OF_SPEED_KEPT, BodyMotion, even_drive
+from tire_pipeline.recordings.axle.body_motion import BodyMotion, even_drive, fast_and_good
 from tire_pipeline.recordings.axle.kinematics import acceleration_gain
 from tire_pipeline.recordings.axle.smoothing import Smoother, white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
@@ -71,7 +71,7 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         ax = smoother.smooth(speed, 1) - turning * vy
         ax_std = stds[0] * slope
     lateral = smoother.smooth(ay)
-    used = even.good & (vx > SHARE_OF_SPEED_KEPT * np.quantile(vx, 0.99))
+    used = fast_and_good(vx, even.good)
     gain, said = _gain_of(lateral, turning, vx, vy if how != _INTEGRATED else None, smoother, used, vehicle)
     notes = [*even.notes, how + _not_used(table, how), *said]
     one = np.ones_like(speed)

@@ -15,6 +15,7 @@ from tire_pipeline.recordings.axle.body_motion import (
     SHARE_OF_SPEED_KEPT,
     BodyMotion,
     evenly_spaced,
+    fast_and_good,
     from_pose,
 )
 from tire_pipeline.recordings.axle.drive_units import drive_in_si
@@ -162,11 +163,12 @@ def axle_recording(
     _add_longitudinal(table, motion, state, vehicle, axle, even, notes)
     of_tires = table.columns.intersection(_FORCES_AND_LOAD)
     table[of_tires] /= wheels
-    notes.append("load and forces are those of " + _WHEELS[wheels])
+    whose = f"load and forces are those of {_WHEELS[wheels]}"
+    notes.append(whose)
     if wheels == 2:
         _add_load_transfer(table, motion, vehicle, notes)
     out = _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
-    out.attrs["assumed"] = [_READ_AS, f"load and forces are those of {_WHEELS[wheels]}"]
+    out.attrs["assumed"] = [_READ_AS, whose]
     return out
 
 
@@ -178,8 +180,8 @@ def _add_load_transfer(table: pd.DataFrame, motion: BodyMotion, vehicle: Vehicle
             "unknown: it looks like less friction in fast turns"
         )
         return
-    at_cg = motion.ay + (vehicle.rear_length - motion.ahead) * motion.yaw_acceleration
-    table["load_transfer"] = np.abs(vehicle.mass * at_cg * vehicle.cg_height / (2.0 * vehicle.track))
+    ay = _lateral_at_cg(motion, vehicle)
+    table["load_transfer"] = np.abs(vehicle.mass * ay * vehicle.cg_height / (2.0 * vehicle.track))
 
 
 def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataFrame) -> _AxleState:
@@ -189,8 +191,8 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     arm = vehicle.front_length if rear else vehicle.rear_length
     sign = -1.0 if rear else 1.0
     to_cg = vehicle.rear_length - motion.ahead
-    ax, ax_std = _ahead_at_cg(motion, to_cg)
-    ay = motion.ay + to_cg * motion.yaw_acceleration
+    ax, ax_std = _ahead_at_cg(motion, vehicle)
+    ay = _lateral_at_cg(motion, vehicle)
     fy = (mass * arm * ay + sign * vehicle.yaw_inertia * motion.yaw_acceleration) / length
     per_yaw = (mass * arm * to_cg + sign * vehicle.yaw_inertia) / length
     noise = np.hypot(mass * arm / length * motion.ay_std, per_yaw * motion.yaw_acceleration_std)
@@ -214,7 +216,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
             raise RecordingError("`steering` holds no number", todo="enter road-wheel angles in rad")
         filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
         wheel = motion.smoother.smooth(filled)
-        ahead = motion.good & (motion.vx > SHARE_OF_SPEED_KEPT * np.quantile(motion.vx, 0.99))
+        ahead = fast_and_good(motion.vx, motion.good)
         check_steering(wheel[ahead], (length * motion.yaw_rate / np.maximum(motion.vx, 1e-6))[ahead])
         slip = slip - wheel
         # Lateral force in the wheel's axes; the driving force's share is added with `fx`.
@@ -233,8 +235,14 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     )
 
 
-def _ahead_at_cg(motion: BodyMotion, to_cg: float) -> tuple[Array, Array]:
+def _lateral_at_cg(motion: BodyMotion, vehicle: Vehicle) -> Array:
+    """Acceleration to the left at the centre of gravity."""
+    return motion.ay + (vehicle.rear_length - motion.ahead) * motion.yaw_acceleration
+
+
+def _ahead_at_cg(motion: BodyMotion, vehicle: Vehicle) -> tuple[Array, Array]:
     """Acceleration ahead at the centre of gravity, and its noise: the marker's way is another circle."""
+    to_cg = vehicle.rear_length - motion.ahead
     ax = motion.ax - to_cg * motion.yaw_rate**2
     return ax, np.hypot(motion.ax_std, 2.0 * to_cg * motion.yaw_rate * motion.yaw_rate_std)
 
@@ -288,7 +296,7 @@ def _add_longitudinal(
     if share is None:
         return
     part = share if axle == "front" else 1.0 - share
-    ax, ax_std = _ahead_at_cg(motion, vehicle.rear_length - motion.ahead)
+    ax, ax_std = _ahead_at_cg(motion, vehicle)
     table["fx"] = part * vehicle.mass * ax
     table["fx_std"] = part * vehicle.mass * ax_std
     notes.append("fx: mass times acceleration, without aerodynamic drag and rolling resistance")
