@@ -18,6 +18,7 @@ from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import judged
+from tire_pipeline.mismatch.unnamed_physics.rival import Rival
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
 from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
 from tire_pipeline.tir import read_tir
@@ -136,7 +137,7 @@ def test_an_equation_beats_names_that_take_up_a_part_and_not_those_that_take_up_
     seen = problem(by_speed, noise=NOISE)
     part = by_speed(seen.table)
     names = {o: rest - taken_up * part if o == "fy" else rest for o, rest in seen.rest.items()}
-    found = find_better(seen, names)
+    found = find_better(seen, Rival(names))
     assert (found is not None) is beaten
     if found is not None:
         assert found.physics.depends_on == ("speed",)

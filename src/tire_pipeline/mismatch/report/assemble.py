@@ -213,7 +213,7 @@ def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
     if it.prepared.stopped or not it.answer.names:
         return it, None
     with under_way("looking for an equation instead of the names"):
-        found = instead_of_names(it.analysis)
+        found = instead_of_names(it.analysis, it.sets, it.answer)
         if found is not None:
             found, _ = never_worse(found, _model(it, []), it.recording)
     if found is None or found.physics is None:

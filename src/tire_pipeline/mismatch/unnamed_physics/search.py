@@ -10,6 +10,8 @@ import numpy as np
 from tire_pipeline.channels import ALIGNING_MOMENT, FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
+from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CLASSES, one_sided, span, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
@@ -45,6 +47,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
+from tire_pipeline.mismatch.unnamed_physics.rival import Acting, Rival
 from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
 
 Array = np.ndarray
@@ -93,23 +96,25 @@ def unnamed_moment(problem: Unexplained, *, plainly: bool) -> UnnamedReport:
     return found
 
 
-def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
-    """Return an equation that predicts unseen sweeps better than the named effects do, if there is one.
+def instead_of_names(analysis: Analysis, sets: Enumerated, answer: SetAnswer) -> UnnamedReport | None:
+    """Return an equation that is likelier than the named effects and predicts unseen sweeps better, if any.
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
-    it weighs no equation. Here an equation alone, chosen and fitted without some operating conditions, has to
-    leave surely less there than the named effects fitted without the same ones. The names stay if they leave
-    less with an equation of their own residual: so a true cause keeps its name where something unnamed acts,
-    too.
+    it weighs no equation. Here an equation alone has to be likelier in the same likelihood than all sets that
+    hold names. And chosen and fitted without some operating conditions, it has to leave surely less there
+    than the named effects fitted without the same ones. The names stay if they leave less with an equation of
+    their own residual: so a true cause keeps its name where something unnamed acts, too.
 
     Parameters
     ----------
     analysis : Analysis
         With the set that is named.
+    sets : Enumerated
+    answer : SetAnswer
     """
     columns = Columns(by_condition(problem_of(with_fit(analysis, Fit([], [])))))
     names = each_left_out(analysis, analysis.fit, together=columns.fold_of_sweep)
-    found, left = _better(columns, names)
+    found, left = _better(columns, Rival(names, sets, answer))
     if found is None or _stay(analysis, names, left):
         return None
     return replace(found, instead_of=tuple(analysis.fit.names))
@@ -124,23 +129,26 @@ def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Ar
     return size_over_largest(beside, problem.largest) < size_over_largest(alone, problem.largest)
 
 
-def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
-    """The same against any rival: output -> what it leaves on unseen sweeps, N, shape (n,)."""
+def find_better(problem: Unexplained, rival: Rival) -> UnnamedReport | None:
+    """The same against any rival."""
     return _better(Columns(problem), rival)[0]
 
 
-def _better(columns: Columns, rival: Mapping[str, Array]) -> tuple[UnnamedReport | None, dict[str, Array]]:
+def _better(columns: Columns, rival: Rival) -> tuple[UnnamedReport | None, dict[str, Array]]:
     """Return what is better than a rival, and what it leaves on unseen sweeps, N."""
     problem, choice = columns.problem, choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
     if not any(
-        surely_less(problem, rival, _left(problem, forces_of(columns, choice, m.terms))) for m in models
+        surely_less(problem, rival.left, _left(problem, forces_of(columns, choice, m.terms)))
+        and rival.less_likely_than([Acting(columns, [choice.terms[i] for i in m.terms], problem.outputs, m)])
+        for m in models
     ):
         return None, {}  # not even where it was fitted
     parts = _parts([(columns, choice, proven(columns))])
     left = _left(problem, _added(parts))
     found = _reported(problem, parts)
-    if not surely_less(problem, rival, left):
+    acting = [Acting(p.columns, p.terms, p.outputs, p.model) for p in parts if p.model is not None]
+    if not surely_less(problem, rival.left, left) or not rival.less_likely_than(acting):
         return None, {}
     if found.physics is None or found.physics.of_one_recording:
         return None, {}  # an equation in time, or the way rolled, ends with its recording; a name does not

@@ -58,6 +58,8 @@ class SetAnswer:
     case : OfCase
     alone : mapping
         Set of names -> probability with nothing unnamed.
+    log_weight : float
+        Log of the evidence times the odds of all hypotheses that hold names.
     """
 
     sets: tuple[tuple[Names, float], ...]
@@ -69,6 +71,7 @@ class SetAnswer:
     left: Mapping[str, float]
     case: OfCase
     alone: Mapping[Names, float] = field(default_factory=dict)
+    log_weight: float = -np.inf
 
     def single(self, name: str) -> tuple[Change, ...]:
         """Return an effect alone, where its own fit has ended."""
@@ -143,7 +146,9 @@ def answered(
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
     gains = _gains(case, evidence)
-    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case, without)
+    with_names = np.array([bool(each.names) for each in every])
+    weight = float(scipy.special.logsumexp(value[with_names])) if with_names.any() else -np.inf
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case, without, weight)
 
 
 def nothing(case: OfCase) -> SetAnswer:

@@ -19,7 +19,9 @@ from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.sets.fitting import fitted
 from tire_pipeline.mismatch.inference.sets.screen import EFFECTS_KEPT, Screened, screen, screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.residual import residual
 
+Array = np.ndarray
 Names = tuple[str, ...]
 PAIRS = 2 * EFFECTS_KEPT
 TRIPLES = EFFECTS_KEPT // 2
@@ -54,6 +56,22 @@ class Enumerated:
         likely = {names for names, p in probabilities.items() if p > least}
         kept = [s for s in self.sets if s.names in likely or set(s.names) <= set(named)]
         return replace(self, sets=tuple(kept))
+
+    def log_evidence_of(self, columns: Mapping[str, Array], spread: float) -> float:
+        """Return the log evidence of some columns in place of effects.
+
+        Parameters
+        ----------
+        columns : mapping of ndarray, shape (n, k)
+            Output -> columns, N.
+        spread : float
+            Standard deviation of their coefficients, which are normal.
+        """
+        rest = residual(self.products.data, [])
+        every = {o: np.column_stack([x, rest[o]]) for o, x in columns.items()}
+        count = next(iter(columns.values())).shape[1]
+        scale, tailed = np.full(count, spread), np.zeros(count, bool)
+        return self.likelihood.evidence(self.products.of(every), scale, tailed=tailed).value
 
 
 def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Names] = ()) -> Enumerated:
