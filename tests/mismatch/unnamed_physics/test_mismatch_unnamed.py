@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import judged
 from tire_pipeline.mismatch.unnamed_physics.rival import Rival
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
-from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
+from tire_pipeline.mismatch.unnamed_physics.where_it_holds import distance, way_through_play
 from tire_pipeline.tir import read_tir
 
 DOCS = Path(__file__).parents[3] / "docs" / "reference" / "unnamed_physics.md"
@@ -103,6 +103,22 @@ def test_terms_that_cancel_fade_where_they_do_not_cancel_any_more():
     assert np.all(weight[np.abs(v - 1.0) < 0.01] > 0.9)
     assert np.all(weight[(np.abs(v - 1.0) > 0.3) & (np.abs(fy) > 2000.0)] == 0.0)
     assert distance({"fy": fy}) is None
+
+
+def test_an_equation_with_play_adds_nothing_before_its_gap_is_spanned():
+    """At the start nobody knows at which end of the gap a joint is: 54 N of error became 240 N."""
+    columns, _, _ = table()
+    memories = list(memory_factors(frozenset({"slip_angle", "time"})))
+    play = next(f for f in memories if f.text == "play(s, {}) - s").at(0.01)
+    text, (low, high) = way_through_play(play, columns)
+    s = columns.columns["s"]
+    assert (low, high) == pytest.approx((0.02, s.max() - s.min()))
+    found = physics(f"fy*({play.written})", {text: (low, high)})
+    assert found.weight(columns)[0] == 0.0
+    assert found.weight(columns)[-1] == 1.0
+    still = replace(columns, columns={**columns.columns, "s": 0.02 * s})
+    assert not found.change(still)["fy"].any()
+    assert way_through_play(memories[0], columns) is None
 
 
 def test_a_sidecar_of_the_first_format_is_read():

@@ -48,7 +48,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     surely_less,
 )
 from tire_pipeline.mismatch.unnamed_physics.rival import Acting, Rival
-from tire_pipeline.mismatch.unnamed_physics.terms_together import distance
+from tire_pipeline.mismatch.unnamed_physics.where_it_holds import distance, way_through_play
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -265,7 +265,8 @@ def _physics(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedPh
         return None
     acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for p in parts for t in p.terms))
     drivers = tuple(sorted(frozenset[str]().union(*(p.drivers for p in parts))))
-    ranges = {**_ranges(problem, texts), **_together(parts)}
+    plays = [way_through_play(f, problem.table) for p in parts for t in p.terms for f in t.factors]
+    ranges = {**_ranges(problem, texts), **_together(parts), **dict(filter(None, plays))}
     return UnnamedPhysics(texts, drivers, acts, ranges, problem.nominal, sizes)
 
 

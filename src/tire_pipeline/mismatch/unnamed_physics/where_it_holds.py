@@ -1,4 +1,4 @@
-"""Where an equation of several terms was seen to hold: at sizes of theirs that came together."""
+"""Where an equation was seen to hold: where its terms came together, and where its play is known."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.model.channels import DOES_NOTHING, largest
-from tire_pipeline.mismatch.unnamed_physics.language.grammar import number
+from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable, evaluate, number, parse
+from tire_pipeline.mismatch.unnamed_physics.library import Factor
 
 Array = np.ndarray
 
@@ -41,3 +42,29 @@ def distance(terms: Mapping[str, Array]) -> tuple[str, float] | None:
     ]
     text = "sqrt(" + " + ".join(f"({form})^2" for form in forms) + ")"
     return text, largest(np.linalg.norm(x @ white, axis=1))
+
+
+def way_through_play(factor: Factor, table: SymbolTable) -> tuple[str, tuple[float, float]] | None:
+    """Return how far what goes through a play went to both sides, and where the play is known.
+
+    Where a recording starts nobody knows at which end of its gap a joint is. It is known once what goes
+    through it has spanned the gap.
+
+    Parameters
+    ----------
+    factor : Factor
+    table : SymbolTable
+
+    Returns
+    -------
+    (str, (float, float)) or None
+        What was spanned as an expression of the grammar; twice the play's half width, and what the recording
+        spans. None for a factor without play.
+    """
+    begins = "play("
+    if not factor.text.startswith(begins):
+        return None
+    inside = factor.text[len(begins) : factor.text.index(", {}")]
+    text = f"highest({inside}) + highest(-({inside}))"
+    most = float(evaluate(parse(text), table)[-1])
+    return text, (min(2.0 * factor.value, most), most)
