@@ -84,6 +84,9 @@ SHOWN_UNITS = {
 LARGEST_LOAD_OF_MODEL_CARS = 100.0
 """In N: below that no tire of a car, a motorcycle or a bicycle is used."""
 
+TIRE_RADII = (0.004, 2.5)
+"""m, of tires and wheels: models of a car at 1:87 to the largest tire of a mining truck (59/80R63: 2.0)."""
+
 TIRE_PRESSURES = (6e4, 1.2e6)
 """Pa, of racing cars at 0.6 bar to trucks at 9 bar (ETRTO), cold; a third more when hot."""
 

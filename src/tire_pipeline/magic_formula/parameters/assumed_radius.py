@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from tire_pipeline.channels import TIRE_RADII
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 ASSUMED_RADIUS = 0.32
 """Unloaded radius, m, where nothing states one: about that of a 205/55 R16 (8 inches + 55% of 205 mm)."""
-
-PLAUSIBLE_RADII = (0.01, 3.0)
-"""m: from models of a car at 1:10 (0.03) to the largest tire of a mining truck (59/80R63: 2.0)."""
 
 
 def check_stated_radius(radius: Any) -> None:
@@ -36,7 +34,7 @@ def check_stated_radius(radius: Any) -> None:
         value = float(radius)
     except (TypeError, ValueError):
         value = math.nan
-    low, high = PLAUSIBLE_RADII
+    low, high = TIRE_RADII
     if low <= value <= high:
         return
     todo = "state it in metres (--unloaded-radius), such as 0.32"

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axle.body_motion import BodyMotion, even_drive, fast_and_good
+from tire_pipeline.recordings.axle.body_motion import BodyMotion, EvenDrive, even_drive, fast_and_good
 from tire_pipeline.recordings.axle.kinematics import acceleration_gain
 from tire_pipeline.recordings.axle.smoothing import Smoother, white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
@@ -52,19 +54,13 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
             todo="add x, y, yaw or speed, yaw_rate, lateral_acceleration",
         )
     even = even_drive(drive, MOTION_CHANNELS, bandwidth)
-    table, smoother = even.table, even.smoother
-    recorded, rate, ay = (_filled(table[name]) for name in MOTION_CHANNELS)
+    log = _log_of(even, vehicle)
+    table, smoother, speed, rate, ay, stds = even.table, even.smoother, log.speed, log.rate, log.ay, log.stds
     keep, slope = smoother.gain(0, 0), smoother.gain(0, 1)
-    stds = [white_noise_std(s) for s in (recorded, rate, ay)]
-    # To the vehicle's middle line and upright: a point beside it turns on another circle, and a sensor
-    # that leans with the body feels a part of gravity.
-    left = vehicle.marker_lateral
-    speed, ay = recorded + left * rate, ay / vehicle.felt_acceleration + left * rate**2
-    stds = [np.hypot(stds[0], left * stds[1]), stds[1], stds[2] / vehicle.felt_acceleration]
-    vy, vy_std, how = _lateral_speed(table, recorded, speed, rate, ay, smoother, stds, vehicle)
+    vy, vy_std, how = _lateral_speed(log, vehicle)
     turning, vx = smoother.smooth(rate), smoother.smooth(speed)
     if "longitudinal_acceleration" in table:
-        raw = _filled(table["longitudinal_acceleration"])
+        raw, left = _filled(table["longitudinal_acceleration"]), vehicle.marker_lateral
         ax = smoother.smooth(raw) + left * smoother.smooth(rate, 1)
         ax_std = np.hypot(white_noise_std(raw) * keep, left * stds[1] * slope)
     else:
@@ -96,6 +92,45 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         notes=notes,
         ay_gain_std=abs(gain - 1.0),
     )
+
+
+@dataclass(frozen=True)
+class _Log:
+    """A vehicle's log on an even time line, as of a point on the middle line that stays upright.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As recorded.
+    smoother : Smoother
+    recorded : ndarray, shape (n,)
+        Speed where the sensor is, m/s.
+    speed, rate, ay : ndarray, shape (n,)
+        Speed, m/s; yaw rate, rad/s; lateral acceleration, m/s^2.
+    stds : tuple of float
+        Standard deviations of the white noise of the three.
+    """
+
+    table: pd.DataFrame
+    smoother: Smoother
+    recorded: Array
+    speed: Array
+    rate: Array
+    ay: Array
+    stds: tuple[float, float, float]
+
+
+def _log_of(even: EvenDrive, vehicle: Vehicle) -> _Log:
+    """Move a log to the vehicle's middle line and set it upright.
+
+    A point beside it turns on another circle, and a sensor that leans with the body feels a part of gravity.
+    """
+    recorded, rate, ay = (_filled(even.table[name]) for name in MOTION_CHANNELS)
+    noise = [white_noise_std(s) for s in (recorded, rate, ay)]
+    left, felt = vehicle.marker_lateral, vehicle.felt_acceleration
+    speed, lateral = recorded + left * rate, ay / felt + left * rate**2
+    stds = (float(np.hypot(noise[0], left * noise[1])), noise[1], noise[2] / felt)
+    return _Log(even.table, even.smoother, recorded, speed, rate, lateral, stds)
 
 
 def _gain_of(
@@ -161,17 +196,9 @@ def _filled(column: pd.Series) -> Array:
     return np.asarray(np.interp(np.arange(values.size), here, values[here]))
 
 
-def _lateral_speed(
-    table: pd.DataFrame,
-    recorded: Array,
-    speed: Array,
-    rate: Array,
-    ay: Array,
-    smoother: Smoother,
-    stds: list[float],
-    vehicle: Vehicle,
-) -> tuple[Array, Array, str]:
+def _lateral_speed(log: _Log, vehicle: Vehicle) -> tuple[Array, Array, str]:
     """Return the lateral speed, its standard deviation and where it comes from."""
+    table, recorded, smoother = log.table, log.recorded, log.smoother
     for name in ("lateral_speed", "sideslip"):
         if name in table:
             raw = _filled(table[name])
@@ -185,19 +212,12 @@ def _lateral_speed(
                 )
             value = smoother.smooth(recorded * np.tan(raw))
             return value, std * np.abs(recorded), "lateral speed from the recorded sideslip"
-    return *_integrated(table, speed, rate, ay, smoother, stds, vehicle), _INTEGRATED
+    return *_integrated(log, vehicle), _INTEGRATED
 
 
-def _integrated(
-    table: pd.DataFrame,
-    speed: Array,
-    rate: Array,
-    ay: Array,
-    smoother: Smoother,
-    stds: list[float],
-    vehicle: Vehicle,
-) -> tuple[Array, Array]:
+def _integrated(log: _Log, vehicle: Vehicle) -> tuple[Array, Array]:
     """Lateral speed from the acceleration, anchored where the vehicle runs straight, and its deviation."""
+    speed, rate, ay, smoother, stds = log.speed, log.rate, log.ay, log.smoother, log.stds
     # Where nothing turns fast the rear axle hardly slips.
     straight_vy = vehicle.marker_offset * smoother.smooth(rate)
     dt = smoother.dt
@@ -208,7 +228,7 @@ def _integrated(
     if not straight.any():
         raise RecordingError(
             "no stretch of straight running, so the lateral speed cannot be integrated"
-            + _not_used(table, _INTEGRATED),
+            + _not_used(log.table, _INTEGRATED),
             todo="add the pose, lateral_speed or sideslip, or record straight running too",
         )
     anchors = np.flatnonzero(straight)

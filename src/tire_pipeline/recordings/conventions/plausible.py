@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES
+from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES, TIRE_RADII
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
@@ -34,9 +34,6 @@ class Plausible(NamedTuple):
     read_as: str = ""
 
 
-WHEEL_RADII = (0.004, 2.5)
-"""Loaded and effective radii of wheels, m."""
-
 PLAUSIBLE_VALUES = {
     "slip_angle": Plausible(0.0, 1.6, "a wheel that stands across its path has pi/2", "deg"),
     "camber": Plausible(0.0, 1.2, "a motorcycle leans by 65 degrees at most (1.13 rad)", "deg"),
@@ -47,8 +44,8 @@ PLAUSIBLE_VALUES = {
         *TIRE_PRESSURES, "racing cars of 0.6 bar to trucks of 9 bar (ETRTO), cold; a third more when hot"
     ),
     "tread_temperature": Plausible(0.0, 250.0, "above 200 degC rubber decomposes"),
-    "loaded_radius": Plausible(*WHEEL_RADII, "model cars at 1:87 to a mining truck's 59/80R63 (2.0 m)"),
-    "effective_radius": Plausible(*WHEEL_RADII, "as the loaded radius; a slipping wheel's is larger"),
+    "loaded_radius": Plausible(*TIRE_RADII, "model cars at 1:87 to a mining truck's 59/80R63 (2.0 m)"),
+    "effective_radius": Plausible(*TIRE_RADII, "as the loaded radius; a slipping wheel's is larger"),
 }
 """By channel. A low of 0 sets no lower limit: a channel that is constant is not a fault."""
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tire_pipeline.magic_formula.parameters.assumed_radius import PLAUSIBLE_RADII
+from tire_pipeline.channels import TIRE_RADII
 from tire_pipeline.magic_formula.parameters.coefficients import RANGE_KEYS
 
 _PLAUSIBLE = {
-    "UNLOADED_RADIUS": (*PLAUSIBLE_RADII, "m"),
+    "UNLOADED_RADIUS": (*TIRE_RADII, "m"),
     "FNOMIN": (10.0, 1e6, "N"),
     "NOMPRES": (1e4, 5e6, "Pa"),
     "INFLPRES": (1e4, 5e6, "Pa"),

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES
-from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS, PLAUSIBLE_RADII
+from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES, TIRE_RADII
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.small_loads import in_another_unit_as
 
@@ -36,7 +36,7 @@ def unlike_tires(
     radius = base.get("UNLOADED_RADIUS", np.nan)
     if "NOMPRES" in base and not np.isnan(pressure) and not _within(pressure, TIRE_PRESSURES):
         return f"units; no tire has a pressure of {in_digits(pressure)} Pa, look at that of pressure.", []
-    if not np.isnan(radius) and not _within(radius, PLAUSIBLE_RADII):
+    if not np.isnan(radius) and not _within(radius, TIRE_RADII):
         return f"units; no tire has an unloaded radius of {in_digits(radius)} m, state it in metres.", []
     told = in_another_unit_as(recording, load, np.nan if radius == ASSUMED_RADIUS else radius)
     if stated and load < LARGEST_LOAD_OF_MODEL_CARS <= base["FNOMIN"]:
