@@ -101,6 +101,22 @@ def test_a_misspelt_parameter_is_named(tmp_path):
     assert "binz" in _one_line(kedro_here(tmp_path, "--params", "bin.binz=3"))
 
 
+@pytest.mark.parametrize("value", ["[1", "{a", "*x", "\udce9"])
+def test_a_parameter_that_cannot_be_read_is_told(tmp_path, value):
+    done = kedro_here(tmp_path, "--params", f"translate.only={value}")
+    assert done.returncode == 2
+    assert "Invalid value for --params: " in done.stderr
+    assert "-> correct it in conf or --params" in done.stderr
+
+
+@pytest.mark.parametrize(("line", "said"), [("data: [1\n", "unable to read line"), ("data: ${x:y}\n", "x")])
+def test_a_configuration_that_cannot_be_read_is_told(tmp_path, line, said):
+    (small_conf(tmp_path) / "small" / "globals.yml").write_text(line)
+    told = _one_line(kedro_here(tmp_path))
+    assert said in told
+    assert "-> correct it in conf or --params" in told
+
+
 def test_a_misspelt_environment_is_named(tmp_path):
     line = _one_line(kedro_here(tmp_path, "--env", "smal"))
     assert "conf/smal" in line
