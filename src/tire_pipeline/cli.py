@@ -48,7 +48,7 @@ def _check_names(asked: Sequence[str]) -> None:
             raise DomainError(f"there is no pipeline {name!r}", todo=f"{near} {all_of_them}".strip())
 
 
-class _Run(click.Command):
+class _RunCommand(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Say in one line, too, that a value of ``--params`` cannot be read."""
         try:
@@ -58,5 +58,5 @@ class _Run(click.Command):
             raise click.BadParameter(what, ctx=ctx, param_hint="--params") from error
 
 
-run = _Run("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
+run = _RunCommand("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
 cli.add_command(run)
