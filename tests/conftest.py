@@ -15,6 +15,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
+
+# On a busy machine any example may take over 200 ms, Hypothesis' own limit.
+settings.register_profile("any machine", deadline=None)
+settings.load_profile("any machine")
 
 _KNOWN = Path(__file__).with_name("known_misses.txt")
 _REASON = "known miss: a finding to look into (tests/known_misses.txt)"

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+import time
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 HERE = Path(__file__).parent
 
@@ -30,3 +33,9 @@ def _lines(path: Path) -> list[str]:
 @pytest.mark.parametrize(("file", "test"), sorted(_named()))
 def test_what_a_list_names_is_there(file, test):
     assert (f"def {test}(" if test else "def test_") in _text(HERE / file)
+
+
+@given(st.just(0.3))
+@settings(max_examples=1)
+def test_no_example_fails_for_the_time_that_it_takes(seconds):
+    time.sleep(seconds)

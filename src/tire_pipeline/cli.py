@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 from kedro.framework.cli.project import run as kedro_run
+from yaml import YAMLError
 
 from tire_pipeline import pipelines
 from tire_pipeline.errors import DomainError, did_you_mean
@@ -47,5 +48,15 @@ def _check_names(asked: Sequence[str]) -> None:
             raise DomainError(f"there is no pipeline {name!r}", todo=f"{near} {all_of_them}".strip())
 
 
-run = click.Command("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
+class _RunCommand(click.Command):
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Say in one line, too, that a value of ``--params`` cannot be read."""
+        try:
+            return super().parse_args(ctx, args)
+        except YAMLError as error:
+            what = visible(one_line(error) or "")
+            raise click.BadParameter(what, ctx=ctx, param_hint="--params") from error
+
+
+run = _RunCommand("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
 cli.add_command(run)

@@ -9,6 +9,8 @@ from kedro.io import DatasetError
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset
+from tire_pipeline.errors import DomainError
+from tire_pipeline.files.packed import pack, unpack
 
 
 def _count(folder: Path, name: str) -> bytes:
@@ -47,6 +49,25 @@ def test_an_interrupted_computation_goes_on_where_it_stopped(tmp_path):
     assert not (tmp_path / "out" / "b").exists()
     _dataset(tmp_path).save({**first, "b": partial(_count, tmp_path, "b")})
     assert (tmp_path / "a.calls").read_text() == "x"
+
+
+def test_what_is_stored_and_damaged_is_told_by_its_name_and_made_again(tmp_path):
+    work = {"deep/a.zip": partial(pack, {"letters": b"abcdefgh" * 99})}
+    _dataset(tmp_path).save(work)
+    place = tmp_path / "out/deep/a.zip"
+    whole = place.read_bytes()
+    said = set()
+    for position in range(len(whole)):
+        place.write_bytes(whole[:position] + bytes([whole[position] ^ 0xFF]) + whole[position + 1 :])
+        read = _dataset(tmp_path).load()["deep/a.zip"]
+        try:
+            assert unpack(read()).popitem()[1] == b"abcdefgh" * 99  # a byte that carries nothing
+        except DomainError as error:
+            said.add(str(error))
+    assert said == {f"{place}: this stored file is damaged -> delete it and run again: it is made again"}
+    place.unlink()
+    _dataset(tmp_path).save(work)
+    assert place.read_bytes() == whole
 
 
 def test_only_what_was_asked_for_last_is_loaded(tmp_path):

@@ -11,6 +11,8 @@ from magic_formula_tires import tire_52
 
 from tire_pipeline.magic_formula import PoorFitWarning, fit_magic_formula
 
+pytestmark = pytest.mark.slow
+
 
 def brake_sweeps(held, cambers=(0.0, 0.035, 0.07), seed=1):
     """Sweeps of slip ratio at four loads and a held slip angle, rad, with a rig's noise on all channels."""

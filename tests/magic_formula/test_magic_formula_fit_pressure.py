@@ -12,6 +12,8 @@ from tire_pipeline.magic_formula.fitting.setup.coverage import (
     open_coefficients,
 )
 
+pytestmark = pytest.mark.slow
+
 BY_PRESSURE = ("PPY1", "PPY2", "PPY3")
 TIRE = TireModel.from_coefficients(
     {"FNOMIN": 4000, "UNLOADED_RADIUS": 0.3, "PCY1": 1.3, "PDY1": 1, "PKY1": -20, "PKY2": 2}, "6.1"

@@ -9,6 +9,8 @@ import pytest
 from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 from tire_pipeline.recordings import read_recording
 
+pytestmark = pytest.mark.slow
+
 TYDEX = Path(__file__).resolve().parents[2].parent / "shared" / "recordings" / "tydex"
 WRONG = {"turned sign": lambda f: -f, "zero": lambda f: 0.0, "a digit too many": lambda f: 10.0 * f}
 TIRE = TireModel.from_coefficients(

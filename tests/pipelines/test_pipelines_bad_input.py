@@ -76,6 +76,20 @@ def test_no_target_category(tmp_path, small_fleet):
     assert "set target_category" in line
 
 
+def test_results_of_a_run_whose_clock_was_ahead_are_replaced(tmp_path, small_fleet):
+    """They bear the last name for weeks; "2 files were read" was said of a folder with one."""
+    folder = _folder(tmp_path, small_fleet, "A")
+    tires = sorted((folder / "data/01_raw/tir/A").iterdir())
+    for path in tires[2:]:
+        path.unlink()
+    ingest = ("--pipeline", "ingest_tir")
+    assert "2 of 2 files were read" in kedro_here(folder, *ingest).stdout
+    for version in (folder / "data/02_intermediate").glob("*/20*Z"):
+        version.rename(version.with_name("2100-01-01T00.00.00.000Z"))
+    tires[0].unlink()
+    assert "1 of 1 files were read" in kedro_here(folder, *ingest).stdout
+
+
 def test_a_wrong_parameter_is_named_with_what_is_allowed(tmp_path):
     line = _one_line(kedro_here(tmp_path, "--params", "bin.method=equal_with"))
     assert "method" in line
@@ -85,6 +99,22 @@ def test_a_wrong_parameter_is_named_with_what_is_allowed(tmp_path):
 
 def test_a_misspelt_parameter_is_named(tmp_path):
     assert "binz" in _one_line(kedro_here(tmp_path, "--params", "bin.binz=3"))
+
+
+@pytest.mark.parametrize("value", ["[1", "{a", "*x", "\udce9"])
+def test_a_parameter_that_cannot_be_read_is_told(tmp_path, value):
+    done = kedro_here(tmp_path, "--params", f"translate.only={value}")
+    assert done.returncode == 2
+    assert "Invalid value for --params: " in done.stderr
+    assert "-> correct it in conf or --params" in done.stderr
+
+
+@pytest.mark.parametrize(("line", "said"), [("data: [1\n", "unable to read line"), ("data: ${x:y}\n", "x")])
+def test_a_configuration_that_cannot_be_read_is_told(tmp_path, line, said):
+    (small_conf(tmp_path) / "small" / "globals.yml").write_text(line)
+    told = _one_line(kedro_here(tmp_path))
+    assert said in told
+    assert "-> correct it in conf or --params" in told
 
 
 def test_a_misspelt_environment_is_named(tmp_path):

@@ -65,6 +65,15 @@ def test_a_header_longer_than_the_first_look_is_found(tmp_path):
     assert _csv(tmp_path / "wide.csv", names).shape == (1, 2004)
 
 
+def test_a_note_names_no_two_thousand_columns(tmp_path):
+    for count, end in ((20, "c19"), (21, "c19 and 1 more"), (2000, "c19 and 1,980 more")):
+        notes = _csv(tmp_path / "wide.csv", [f"c{i}" for i in range(count)]).attrs["notes"]
+        (note,) = [
+            note for note in notes if note.startswith("not used, because their names are not known: c0")
+        ]
+        assert note.endswith(f", {end}")
+
+
 def _read_and_checked(path):
     return check_recording(read_recording(path))
 

@@ -195,6 +195,23 @@ def test_a_damaged_note_is_watched_and_deletes_nothing(draw, runs, content):
     assert (runs.parent / "table.csv/old").exists()
 
 
+@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir], ids=["FIFO", "folder"])
+def test_what_is_no_file_is_no_note_and_keeps_nobody_waiting(draw, runs, make):
+    runs.mkdir(parents=True, exist_ok=True)
+    make(runs / "000007.json")
+    ticket = draw()
+    assert ticket.note.number == 8
+    take_turn(ticket)
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, Path.touch, lambda path: path.symlink_to("/absent/runs")])
+def test_where_notes_have_no_folder_it_is_told(draw, runs, make):
+    runs.parent.mkdir(parents=True, exist_ok=True)
+    make(runs)
+    with pytest.raises(DomainError, match="no folder, and runs keep their tickets in one -> take it out"):
+        draw()
+
+
 def test_the_folder_of_notes_is_no_place_for_strangers(draw, runs):
     runs.mkdir(parents=True)
     (runs / "notes.txt").write_text("mine")

@@ -2,19 +2,52 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import lzma
+import struct
 import zipfile
-from collections.abc import Mapping
+import zlib
+from collections.abc import Iterator, Mapping
 
 import pandas as pd
 
+from tire_pipeline.errors import DomainError
+
 _DATE = (1980, 1, 1, 0, 0, 0)
+
+
+_OF_A_DAMAGED_ZIP = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    RuntimeError,  # it seems to be encrypted, or to be of another kind
+    EOFError,
+    LookupError,
+    ValueError,
+    OSError,
+)
+"""What :mod:`zipfile` raises if some bytes are not what they were."""
 
 
 class Passing(bytes):
     """A result that counts for this run only: the next one computes it again."""
 
     passing = True
+
+
+class Stored(bytes):
+    """The content of a stored file, and where that lies."""
+
+    where = ""
+
+
+def stored(content: bytes, where: str) -> Stored:
+    """Content with its place, for the case that it is damaged."""
+    found = Stored(content)
+    found.where = where
+    return found
 
 
 def pack(members: Mapping[str, bytes]) -> bytes:
@@ -27,21 +60,34 @@ def pack(members: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
+@contextlib.contextmanager
+def _opened(content: bytes) -> Iterator[zipfile.ZipFile]:
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            yield archive
+    except _OF_A_DAMAGED_ZIP as error:
+        raise DomainError(
+            "this stored file is damaged",
+            where=getattr(content, "where", None),
+            todo="delete it and run again: it is made again",
+        ) from error
+
+
 def unpack(content: bytes) -> dict[str, bytes]:
     """The files of one ZIP."""
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+    with _opened(content) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
 def member(content: bytes, name: str) -> bytes:
     """One of the files of one ZIP."""
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+    with _opened(content) as archive:
         return archive.read(name)
 
 
 def names_in(content: bytes) -> list[str]:
     """Names of the files of one ZIP, none of which is read."""
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+    with _opened(content) as archive:
         return archive.namelist()
 
 

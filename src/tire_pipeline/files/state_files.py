@@ -5,14 +5,13 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import zipfile
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.packed import pack
+from tire_pipeline.files.packed import pack, unpack
 
 _PLAIN_MEMBER = "plain.json"
 _SUM = "sha256"
@@ -59,22 +58,25 @@ def unpack_state(content: bytes, where: str = "model state") -> dict[str, Any]:
     """The state that :func:`pack_state` made; anything else is an error."""
     todo = "train it again; this file is not loaded"
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            members = {name: archive.read(name) for name in archive.namelist()}
+        members = unpack(content)
         expected = members.pop(_SUM).decode()
-        if _checksum(members) != expected:
-            raise DomainError("the model's checksum is wrong", where=where, todo=todo)
-        state: dict[str, Any] = json.loads(members.pop(_PLAIN_MEMBER))
-        for name, data in members.items():
-            *groups, last = name.removesuffix(".npy").split("/")
-            target = state
-            for group in groups:
-                target = target.setdefault(group, {})
-            target[last] = np.load(io.BytesIO(data), allow_pickle=False)
-    except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError) as error:
-        if isinstance(error, DomainError):
-            raise
+        right = _checksum(members) == expected
+        state = _joined(members) if right else {}
+    except (KeyError, ValueError) as error:
         raise DomainError("the model file is damaged", where=where, todo=todo) from error
+    if not right:
+        raise DomainError("the model's checksum is wrong", where=where, todo=todo)
+    return state
+
+
+def _joined(members: dict[str, bytes]) -> dict[str, Any]:
+    state: dict[str, Any] = json.loads(members.pop(_PLAIN_MEMBER))
+    for name, data in members.items():
+        *groups, last = name.removesuffix(".npy").split("/")
+        target = state
+        for group in groups:
+            target = target.setdefault(group, {})
+        target[last] = np.load(io.BytesIO(data), allow_pickle=False)
     return state
 
 

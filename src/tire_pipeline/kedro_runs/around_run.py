@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from kedro.framework.hooks import hook_impl
-from kedro.io.core import AbstractVersionedDataset
 from pydantic import Field, ValidationError
 
 from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
@@ -18,6 +17,7 @@ from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
 from tire_pipeline.kedro_runs.newest_tables import plain_name, tables_place
+from tire_pipeline.kedro_runs.run_version import settle_version, versioned_datasets
 from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
@@ -52,15 +52,9 @@ class TurnParameters(Parameters):
 
 def _versions(catalog: Any, pipeline: Any, version: str, protocol: str) -> list[Path]:
     """Folders into which this run writes versioned results, of one kind of file system."""
-    folders = []
-    for name in sorted(pipeline.outputs() | pipeline.all_inputs() | pipeline.all_outputs()):
-        if name.startswith(("params:", "parameters")) or name not in catalog:
-            continue
-        dataset = catalog.get(name)
-        inside = isinstance(dataset, AbstractVersionedDataset) and dataset._version is not None
-        if inside and getattr(dataset, "_protocol", "file") == protocol:
-            folders.append(Path(str(dataset._filepath)) / version)
-    return folders
+    found = versioned_datasets(catalog, pipeline.all_inputs() | pipeline.all_outputs())
+    own = [each for each in found if getattr(each, "_protocol", "file") == protocol]
+    return [Path(str(each._filepath)) / version for each in own]
 
 
 class OneRunHooks:
@@ -94,7 +88,8 @@ class OneRunHooks:
     ) -> Generator[None, Any, Any]:
         """Take this run's turn before any other hook reads or writes."""
         self._end()  # of a run in this process that was interrupted
-        self._ticket, others = self._drawn(catalog, pipeline, run_params["run_id"])
+        version = settle_version(catalog, pipeline, run_params["run_id"])
+        self._ticket, others = self._drawn(catalog, pipeline, version)
         try:
             take_turn(
                 self._ticket,
@@ -102,6 +97,10 @@ class OneRunHooks:
                 wait_seconds=self._turn.wait_seconds,
                 expiry_seconds=self._turn.expiry_seconds,
             )
+            if settle_version(catalog, pipeline, version) != version:
+                raise DomainError(
+                    "the run that this one waited for has a clock that is ahead", todo="run again"
+                )
             self._stop_checking = check_before_replacing(self._ticket.check, owner=self._ticket.note.name)
             return (yield)
         except BaseException:

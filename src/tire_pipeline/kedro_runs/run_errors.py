@@ -8,6 +8,8 @@ import re
 from kedro.config import MissingConfigException
 from kedro.io import DatasetError
 from kedro.validation import ParameterValidationError
+from omegaconf.errors import OmegaConfBaseException
+from yaml import YAMLError
 
 from tire_pipeline.errors import TirePipelineError, chain
 
@@ -54,6 +56,9 @@ def one_line(error: BaseException) -> str | None:
         if isinstance(each, MissingConfigException):
             todo = "run it in the project's folder, whose path must not hold *, ? or ["
             text = f"{each} -> {todo}; correct --env or --conf-source if you gave one"
+            break
+        if isinstance(each, YAMLError | OmegaConfBaseException):
+            text = f"{each} -> correct it in conf or --params"
             break
         if isinstance(each, ParameterValidationError):
             text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"

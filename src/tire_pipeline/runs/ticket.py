@@ -134,7 +134,12 @@ class Ticket:
         run, places, alongside, beat_seconds
             As in :class:`Note`.
         """
-        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except FileExistsError as error:
+            raise DomainError(
+                "this is no folder, and runs keep their tickets in one", where=str(folder), todo="take it out"
+            ) from error
         while True:
             number = max(numbers(folder), default=0) + 1
             try:
@@ -223,7 +228,7 @@ def open_notes(folder: Path, below: int) -> list[Note]:
     notes = []
     for name in sorted(os.listdir(folder)):
         found = _FILE_NAME(name)
-        if found and found[2] == "json" and int(found[1]) < below:
+        if found and found[2] == "json" and int(found[1]) < below and (folder / name).is_file():
             with contextlib.suppress(FileNotFoundError):  # it has ended since
                 notes.append(Note.from_json(int(found[1]), (folder / name).read_bytes()))
     return notes

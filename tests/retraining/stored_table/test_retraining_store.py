@@ -292,6 +292,18 @@ def test_a_damaged_model_is_rolled_back_and_models_that_are_gone_are_skipped(thr
     assert "unusable: m2, m3" in back.release.last_event["reason"]
 
 
+@pytest.mark.parametrize("share", [0.02, 0.2, 0.5, 0.8])
+def test_a_model_in_use_that_is_damaged_anywhere_is_rolled_back(three, place, share):
+    path = _file(place, "m3")
+    content = bytearray(path.read_bytes())
+    start = int(share * len(content))
+    content[start : start + 9] = bytes(each ^ 0xFF for each in content[start : start + 9])
+    path.write_bytes(content)
+    with pytest.raises(DatasetError, match=r"the model.*(damaged|wrong).*it is not loaded.*rollback"):
+        three.load()
+    assert _rolled_back(three, place).release.current == "m2"
+
+
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_where_no_model_is_left_it_says_what_is_left_to_do(registry, place, model, count):
     names = [f"m{number}" for number in range(count)]

@@ -15,6 +15,7 @@ from tire_pipeline.datasets.text_files.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.objects import Objects
+from tire_pipeline.files.packed import stored
 from tire_pipeline.tasks import LostTaskError
 
 Compute = Callable[[], bytes]
@@ -108,7 +109,11 @@ class ComputedFolderDataset(DatasetAtPath[Mapping[str, Compute], dict[str, Compu
         """Name to the function that reads the file, for the files of the last save."""
         folder = files_at(self._path)
         names = folder.read(self._INDEX).decode("utf-8").splitlines()
-        return {name: partial(folder.read, str(inside(name))) for name in names}
+        return {name: partial(_read, folder, str(inside(name)), self._path) for name in names}
 
     def _exists(self) -> bool:
         return files_at(self._path).exists(self._INDEX)
+
+
+def _read(folder: Files | Objects, name: str, path: str) -> bytes:
+    return stored(folder.read(name), f"{path}/{name}")

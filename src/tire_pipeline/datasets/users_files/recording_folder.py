@@ -18,6 +18,7 @@ from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
+from tire_pipeline.files.growing import set_growing_aside, todo_of
 from tire_pipeline.files.objects import Objects, is_remote, no_place
 from tire_pipeline.files.regular_file import no_regular_file, open_regular
 from tire_pipeline.magic_formula import TireModel
@@ -56,6 +57,7 @@ class RecordingFolderDataset(DatasetAtPath[None, dict[str, Callable[[], Pair]]])
         if is_remote(self._path):
             return self._checked(_on_objects(Objects(self._path)))
         found = walk(self._path, lambda name: Path(name).suffix.lower() in SUFFIXES)
+        set_growing_aside(found)
         recordings: dict[str, Callable[[], Pair]] = {
             name: RecordingLoader(Path(path), Path(self._path)) for name, path in found.files.items()
         }
@@ -274,4 +276,5 @@ def _may_be_file(path: Path) -> bool:
 
 
 def _refuse(path: str, reason: str, **_: object) -> NoReturn:
-    raise RecordingError(reason, where=path, todo="take it out, or put a recording there")
+    todo = todo_of(reason, "take it out, or put a recording there")
+    raise RecordingError(reason, where=path, todo=todo)

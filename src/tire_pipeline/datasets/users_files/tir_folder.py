@@ -15,6 +15,7 @@ from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
+from tire_pipeline.files.growing import set_growing_aside, todo_of
 from tire_pipeline.files.objects import Objects, no_place, refuse_keys
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
@@ -29,8 +30,8 @@ class TirFolderDataset(PartitionedDataset):
     """A ``PartitionedDataset`` of :class:`TirDataset` that says clearly when there is nothing to read.
 
     Files are found at any depth, ``.tir`` in any case, each once by its real path; hidden files are left out.
-    What is no regular file, or may not be read, is among the partitions and says so when it is loaded: one
-    entry never stops the rest. Names that are not UTF-8 are escaped
+    What is no regular file, may not be read or is being written is among the partitions and says so when it
+    is loaded: one entry never stops the rest. Names that are not UTF-8 are escaped
     (:func:`tire_pipeline.file_names.shown_name`). It never writes.
 
     Parameters
@@ -71,6 +72,7 @@ class TirFolderDataset(PartitionedDataset):
         if not os.path.isdir(self._path):
             return {}
         found = walk(self._path, _is_tir)
+        set_growing_aside(found)
         for name, other in islice(found.again.items(), NAMED_IN_LOG):
             _LOG.info("%s is a link to %s, which is taken already.", name, other)
         if (more := len(found.again) - NAMED_IN_LOG) > 0:
@@ -172,7 +174,8 @@ class Refused:
 
     def __call__(self) -> NoReturn:
         """Say why."""
-        raise TirError(self.reason, path=self.path, todo="take it out, or put a .tir file there")
+        todo = todo_of(self.reason, "take it out, or put a .tir file there")
+        raise TirError(self.reason, path=self.path, todo=todo)
 
     def fingerprint(self) -> str:
         """The reason."""
