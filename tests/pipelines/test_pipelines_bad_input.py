@@ -9,9 +9,15 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from conftest_kedro import ROOT, kedro, kedro_here, small_conf
+from kedro.config import OmegaConfigLoader
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.kedro_runs.unknown_parameters import UnknownParameterHooks
+from tire_pipeline.settings import CONFIG_LOADER_ARGS
 
 pytestmark = pytest.mark.slow
 INGEST = ("--pipelines", "ingest_tir,dedupe_filter")
@@ -219,3 +225,39 @@ def test_a_wrong_parameter_is_one_line_that_names_it(tmp_path, asked, said):
     assert done.returncode == 1
     assert (done.stdout + done.stderr).count(said) == 1
     assert "pydantic.dev" not in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("written", "text", "said"),
+    [
+        (
+            "local/parameters.yml",
+            "target_categry: A\n",
+            "error: conf/local/parameters.yml: there is no parameter 'target_categry' -> "
+            "did you mean 'target_category'?",
+        ),
+        (
+            "local/parameters.yml",
+            "tir_folder: /x\n",
+            "-> give it on the command line: --params tir_folder=...",
+        ),
+        (
+            "base/parameters/translate.yml",
+            "translate: {only: []}\nonly: [B]\n",
+            "did you mean 'explain_mismatch.only' or",
+        ),
+    ],
+)
+def test_a_name_that_nothing_knows_in_a_file_of_parameters_is_told(tmp_path, written, text, said):
+    folder = shutil.copytree(ROOT / "conf", tmp_path / "conf") / written
+    folder.write_text(text)
+    loader = OmegaConfigLoader(str(tmp_path / "conf"), **CONFIG_LOADER_ARGS)
+    with pytest.raises(DomainError) as told:
+        UnknownParameterHooks().after_context_created(SimpleNamespace(config_loader=loader))
+    assert said in f"error: {told.value}"
+
+
+@pytest.mark.parametrize("environment", [None, "small", "cluster"])
+def test_the_files_of_parameters_that_are_here_are_known(environment):
+    loader = OmegaConfigLoader(str(ROOT / "conf"), env=environment, **CONFIG_LOADER_ARGS)
+    UnknownParameterHooks().after_context_created(SimpleNamespace(config_loader=loader))

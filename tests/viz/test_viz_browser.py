@@ -120,6 +120,7 @@ def _settled(driver) -> dict[str, float]:
 
 def test_first_screen_then_a_pipeline_then_a_preview(project, tmp_path):
     with served(project) as address, browser(tmp_path) as driver:
+        assert "Warning" not in (project / "viz.log").read_text()
         driver.get(address)
         _assert_story(driver)
         _keep(driver, "viz_first_screen.png")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import shutil
 import tempfile
+import warnings
 from pathlib import Path
 
 from packaging.version import parse
@@ -21,6 +22,7 @@ def main() -> None:
     parser.add_argument("--env", default=None, help="configuration environment, for example small")
     parser.add_argument("--project", type=Path, default=Path.cwd())
     arguments = parser.parse_args()
+    warnings.filterwarnings("ignore", message="ORJSONResponse is deprecated")  # kedro-viz' own matter
     import kedro_viz
     from kedro.framework.startup import bootstrap_project
     from kedro_viz.api import apps

@@ -36,7 +36,8 @@ PLACE = Located("fy", "slip_angle", 0.1, 0.15, -250.0, -0.1, 0.01, True)
 EFFECT = EffectReport(
     "friction_scale", "physics", "friction of the track", (), 0.99, "fy", {}, [], 0.8, "", "", {}
 )
-OPEN = "the recording agrees with the model only in other axes: fy has the other sign"
+TURNED = "fy has the other sign; it would look the same if slip_angle had"
+OPEN = f"the recording agrees with the model only in other axes ({TURNED})"
 
 
 RIVALS = [("friction_scale", "wear"), ("stiffness_scale",)]
@@ -170,8 +171,19 @@ def test_what_to_do_next_is_something_to_do(effect):
 
 def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():
     told = HEADS["open"].text
-    assert told.startswith(f"Open: {OPEN}; as it was read: explained: the difference comes from")
+    assert told.startswith(f"Open: {OPEN}; as it was read, the difference comes from friction of the track")
     assert told.endswith("Next, read it in other axes; no corrected file is written until then.")
+
+
+def test_an_open_question_says_once_which_channel_is_turned():
+    """It stood there twice, and the verdict a second time: "open: ...; as it was read: ambiguous: ..."."""
+    sign = replace(EFFECT, name="sign_convention", kind="artefact", title=f"a channel's sign ({TURNED})")
+    told = on_question(Question(OPEN, "Read it in other axes"), said("ambiguous", [EFFECT, sign])).text
+    assert told.count(TURNED) == 1
+    assert ", and from a channel's sign, a fault of the recording" in told
+    assert "mbiguous" not in told
+    plain = on_question(Question("the axes are open", "Read it in other axes"), HEADS["explained"]).text
+    assert "the difference comes from friction of the track, which the model leaves out" in plain
 
 
 @pytest.mark.parametrize("case", HEADS)

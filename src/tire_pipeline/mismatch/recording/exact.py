@@ -126,7 +126,7 @@ def open_axes(
     signs = [f for f in findings if f.axes and f.channel != "normal_load"]
     if signs:
         said = "; ".join(f.text for f in signs)
-        return Question(f"the recording agrees with the model only in other axes: {said}", _READ_AGAIN)
+        return Question(f"the recording agrees with the model only in other axes ({said})", _READ_AGAIN)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
     if against and not excludes_sae(some, partial(forces_at, tire)):

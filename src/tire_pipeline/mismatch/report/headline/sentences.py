@@ -29,6 +29,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 _RIVALS_LISTED = 3
 """The number of explanations that are named if each would do."""
 
+_COMES_FROM = "the difference comes "
 _TRY_IT = "Next, test the corrected model on another recording before you use it."
 _RECORD_MORE = "Next, record more sweeps where it shows: then it can be proved, and corrected."
 _RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
@@ -109,7 +110,10 @@ def on_question(question: Question, told: Head) -> Head:
     todo = f"Next, {question.todo[:1].lower()}{question.todo[1:]}; no corrected file is written until then."
     if question.verdict:
         return Head(question.why, todo=todo)
-    return replace(told, causes=f"open: {question.why}; as it was read: {told.causes}", todo=todo)
+    _, _, causes = told.causes.partition(_COMES_FROM)
+    stated = "".join(question.why.partition(" (")[1:])  # not a second time among the causes
+    read = f", {_COMES_FROM}{causes.replace(stated, '')}" if causes else f": {told.causes}"
+    return replace(told, causes=f"open: {question.why}; as it was read{read}", todo=todo)
 
 
 def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) -> Head:
@@ -290,7 +294,7 @@ def _causes(
         parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
     if either:
         parts.append(f"from {' and '.join(either)}{'' if several else f': {_EITHER}'}")
-    text = f"{verdict}: the difference comes {', and '.join(parts)}"
+    text = f"{verdict}: {_COMES_FROM}{', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
 
 
