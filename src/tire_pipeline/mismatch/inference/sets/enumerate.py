@@ -3,9 +3,8 @@ and those that differ from the likeliest by an effect that looks alike."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
@@ -23,7 +22,6 @@ from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 Names = tuple[str, ...]
-PAIRS = 2 * EFFECTS_KEPT
 TRIPLES = EFFECTS_KEPT // 2
 """Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
 _INDEPENDENT = 100.0
@@ -87,12 +85,12 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     looked = screened_recording(analysis, sizes)
     products, found = looked.products, looked.found
     likelihood = looked.guess.counting(found.independent)
-    fits = _Fits(products, likelihood)
+    fits = _Fits(products, likelihood, found.beside)
     fits.take((), products.of_set([], []))
     singles, pairs = sets_to_fit(found, likelihood.unknown.expected, beside)
     for name in singles:
         for form in found.forms[name]:
-            fits.take((name,), fitted(products, likelihood, [form]))
+            fits.single(form)
     for names in pairs:
         fits.fit(names)
     for names in _triples(fits, found):
@@ -109,10 +107,18 @@ class _Fits:
     ----------
     products : RecordingProducts
     likelihood : Likelihood
+    beside : mapping
+        Pair of names -> the forms of the two that are likeliest together.
     """
 
-    def __init__(self, products: RecordingProducts, likelihood: Likelihood) -> None:
-        self.products, self.likelihood = products, likelihood
+    def __init__(
+        self,
+        products: RecordingProducts,
+        likelihood: Likelihood,
+        beside: Mapping[Names, tuple[Variant, Variant]],
+    ) -> None:
+        self.products, self.likelihood, self.beside = products, likelihood, beside
+        self.singles: list[tuple[Variant, OfSet]] = []
         self.sets: dict[Names, OfSet] = {}
         self.evidence: dict[Names, float] = {}
 
@@ -122,10 +128,32 @@ class _Fits:
         if names not in self.sets or evidence > self.evidence[names]:
             self.sets[names], self.evidence[names] = each, evidence
 
+    def single(self, form: Variant) -> None:
+        """Fit one form of an effect by itself."""
+        found = fitted(self.products, self.likelihood, [form])
+        self.singles.append((form, found))
+        self.take((form.name,), found)
+
     def fit(self, names: Names) -> None:
-        """Fit a set of several effects, if it was not, from where their own fits have ended."""
-        if names not in self.sets:
-            self.take(names, fitted(self.products, self.likelihood, self._from_singles(names)))
+        """Fit a set of several effects, if it was not, from where their own fits have ended.
+
+        Of a pair, in the forms that are likeliest beside each other, too: a form that explains most by itself
+        takes up a part of what the other effect does.
+        """
+        if names in self.sets:
+            return
+        ends = [self.sets[(name,)] for name in names]
+        self._take_from(names, ends)
+        forms = self.beside.get(names, ())
+        others = [found for form in forms for own, found in self.singles if own is form]
+        if len(others) == len(names) and any(a is not b for a, b in zip(ends, others, strict=True)):
+            self._take_from(names, others)
+
+    def _take_from(self, names: Names, ends: Sequence[OfSet]) -> None:
+        begin = [
+            Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, ends, strict=True)
+        ]
+        self.take(names, fitted(self.products, self.likelihood, begin))
 
     def likeliest(self, count: int) -> Names:
         """Return the likeliest set of so many effects, by its evidence and by what physics expects."""
@@ -134,13 +162,6 @@ class _Fits:
         odds = log_prior(case, self.likelihood.learnt)[: len(names)]  # of the sets alone, which come first
         mass = [self.evidence[each] + float(p) for each, p in zip(names, odds, strict=True)]
         return names[int(np.argmax(mass))] if names else ()
-
-    def _from_singles(self, names: Names) -> list[Variant]:
-        """Return the forms of some effects, each where its own fit has ended."""
-        singles = [self.sets[(name,)] for name in names]
-        return [
-            Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, singles, strict=True)
-        ]
 
 
 @dataclass(frozen=True)
@@ -179,7 +200,7 @@ def sets_to_fit(
     sure = sorted(set(expected) & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
     wanted += [(name,) for name in sure]
-    pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
+    pairs = [*found.beside, *(names for names in wanted if len(names) == 2)]
     pairs += [tuple(sorted((first, n))) for first in sure for n in found.forms if n != first]
     singles = [*found.kept, *(n for names in pairs + wanted for n in names)]
     return list(dict.fromkeys(singles)), list(dict.fromkeys(pairs))
@@ -190,11 +211,6 @@ def _with_forms(products: RecordingProducts, fits: _Fits) -> tuple[OfSet, ...]:
     order = sorted(fits.sets, key=lambda names: -fits.evidence[names])
     asked = {(), *order[:EFFECTS_KEPT]}
     return tuple(products.with_forms(e) if names in asked else e for names, e in fits.sets.items())
-
-
-def _likeliest_pairs(found: Screened) -> list[Names]:
-    pairs: list[Names] = list(combinations(sorted(found.kept), 2))
-    return sorted(pairs, key=lambda pair: -found.evidence[pair])[:PAIRS]
 
 
 def _triples(fits: _Fits, found: Screened) -> list[Names]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -20,6 +20,7 @@ Array = np.ndarray
 Names = tuple[str, ...]
 EFFECTS_KEPT = 12
 """Effects that go on to be fitted."""
+PAIRS = 2 * EFFECTS_KEPT
 _ROUNDS_OF_COUNTING = 8
 
 
@@ -38,10 +39,12 @@ class Screened:
     Parameters
     ----------
     forms : dict of tuple of Variant
-        Of each effect the likeliest form, and that of each other choice of parameters that float: which of
-        these is likelier shows only where they are fitted.
+        Of each effect the likeliest form, and that of each other choice of parameters that float and of what
+        the others are held at: which of these is likelier shows only where they are fitted.
     evidence : dict
         Log evidence of each single effect and each pair, by names, above that of no effect.
+    beside : dict
+        Pair of names -> the two forms that are likeliest together; of pairs that are likely enough.
     kept : tuple of str
         Effects that are kept.
     independent : dict of float
@@ -50,6 +53,7 @@ class Screened:
 
     forms: Mapping[str, tuple[Variant, ...]]
     evidence: Mapping[Names, float]
+    beside: Mapping[Names, tuple[Variant, Variant]]
     kept: Names
     independent: Mapping[str, float]
 
@@ -97,7 +101,16 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     evidence: dict[Names, float] = {(name,): scores[k] - nothing for name, k in best.items()}
     for pair in combinations(sorted(best), 2):
         evidence[pair] = columns.score(likelihood, *(best[name] for name in pair)) - nothing
-    return Screened(columns.each_choice(scores), evidence, _kept(evidence), independent)
+    choices, kept = columns.each_choice(scores), _kept(evidence)
+    beside = {pair: columns.together(likelihood, choices, pair) for pair in likeliest_pairs(evidence, kept)}
+    chosen = {name: tuple(forms[k].variant for k in which) for name, which in choices.items()}
+    return Screened(chosen, evidence, beside, kept, independent)
+
+
+def likeliest_pairs(evidence: Mapping[Names, float], kept: Iterable[str]) -> list[Names]:
+    """Return the likeliest pairs of the effects that are kept, ``PAIRS`` of them."""
+    pairs: list[Names] = list(combinations(sorted(kept), 2))
+    return sorted(pairs, key=lambda pair: -evidence[pair])[:PAIRS]
 
 
 class _FormColumns:
@@ -139,13 +152,27 @@ class _FormColumns:
             best[name] = max(best.get(name, k), k, key=lambda j: (scores[j], j))
         return best
 
-    def each_choice(self, scores: Sequence[float]) -> dict[str, tuple[Variant, ...]]:
-        """Return the likeliest form of each effect for each choice of parameters that float, best first."""
-        found: dict[str, dict[tuple[str, ...], Variant]] = {}
+    def each_choice(self, scores: Sequence[float]) -> dict[str, tuple[int, ...]]:
+        """Return the number of the likeliest form of each effect for each choice, best first.
+
+        A choice is of parameters that float, and of values at which the others are held: a file that is right
+        at 200 kPa is another one than a file that is right at 250 kPa.
+        """
+        found: dict[str, dict[tuple[object, ...], int]] = {}
         for k in sorted(range(len(self.forms)), key=lambda k: -scores[k]):
             variant = self.forms[k].variant
-            found.setdefault(variant.name, {}).setdefault(variant.free, variant)
+            held = tuple((p, x) for p, x in variant.start.items() if p not in variant.free)
+            found.setdefault(variant.name, {}).setdefault((variant.free, held), k)
         return {name: tuple(choices.values()) for name, choices in found.items()}
+
+    def together(
+        self, likelihood: Likelihood, choices: Mapping[str, tuple[int, ...]], pair: Names
+    ) -> tuple[Variant, Variant]:
+        """Return the forms of two effects that are likeliest beside each other."""
+        first, second = max(
+            product(*(choices[name] for name in pair)), key=lambda both: self.score(likelihood, *both)
+        )
+        return self.forms[first].variant, self.forms[second].variant
 
 
 def _independent(columns: _FormColumns, guess: Likelihood, best: Mapping[str, int]) -> Mapping[str, float]:
