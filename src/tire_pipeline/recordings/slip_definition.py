@@ -21,10 +21,10 @@ _MOST_ROLLING_RESISTANCE = 0.05
 """Over the load; tires of cars and trucks have 0.005 to 0.02, soft or flat ones a little more."""
 _SURE = 2.0
 """Standard errors."""
-_OWN, _LOADED, _CONSTANT = "effective_radius", "loaded_radius", ""
+_BY_EFFECTIVE_RADIUS, _BY_LOADED_RADIUS, _BY_UNKNOWN_RADIUS = "effective_radius", "loaded_radius", ""
 
 
-class _Form(NamedTuple):
+class _SlipForm(NamedTuple):
     """A definition of the slip ratio: of s = w R / V - 1 and back, in words, and what makes it s."""
 
     of: Callable[[Array], Array]
@@ -33,11 +33,11 @@ class _Form(NamedTuple):
     todo: str
 
 
-_FORMS = (
-    _Form(lambda s: s, lambda x: x, "", ""),
-    _Form(lambda s: -s, lambda x: -x, "1 - {}", "turn its sign: driving is positive here"),
-    _Form(lambda s: s + 1.0, lambda x: x - 1.0, "{}", "subtract 1"),
-    _Form(
+_SLIP_FORMS = (
+    _SlipForm(lambda s: s, lambda x: x, "", ""),
+    _SlipForm(lambda s: -s, lambda x: -x, "1 - {}", "turn its sign: driving is positive here"),
+    _SlipForm(lambda s: s + 1.0, lambda x: x - 1.0, "{}", "subtract 1"),
+    _SlipForm(
         lambda s: s / (1.0 + s),
         lambda x: x / (1.0 - x),
         "1 - 1 / ({})",
@@ -64,60 +64,68 @@ def slip_ratio_defined_otherwise(frame: pd.DataFrame) -> list[Issue]:
 def _by_speeds(columns: Mapping[str, Array]) -> list[Issue]:
     """Report which slip ratio the wheel's speed, the road's speed and a radius give.
 
-    The definition is the one with the largest likelihood; each that is not the usual one, and a constant
-    radius that nobody recorded, cost a parameter (Schwarz 1978).
+    The definition is the one with the largest likelihood, less what parameters cost (Schwarz 1978): another
+    form or radius than usual counts as one, and so does the value of a radius that nobody recorded.
     """
     if not {"wheel_speed", "speed"} <= set(columns):
         return []
     slip, turns = columns["slip_ratio"], columns["wheel_speed"]
     with np.errstate(divide="ignore", invalid="ignore"):
         turns = np.abs(turns) / np.abs(columns["speed"])
-    radii = {n: columns[n] for n in (_OWN, _LOADED) if n in columns and np.isfinite(columns[n]).any()}
+    radii = {
+        n: columns[n]
+        for n in (_BY_EFFECTIVE_RADIUS, _BY_LOADED_RADIUS)
+        if n in columns and np.isfinite(columns[n]).any()
+    }
     good = np.isfinite(slip) & np.isfinite(turns) & (turns > 0.0)
     good &= np.all([np.isfinite(r) & (r > 0.0) for r in radii.values()], axis=0)
     slip, turns = slip[good], turns[good]
     if not radii or slip.size < FEWEST_ROWS or np.ptp(slip) == 0.0:
         return []
     known = {n: r[good] for n, r in radii.items()}
-    return _said([each for form in _FORMS for each in _kinds(form, slip, turns, known)])
+    return _said([each for form in _SLIP_FORMS for each in _kinds(form, slip, turns, known)], slip)
 
 
-class _Definition(NamedTuple):
+class _SlipDefinition(NamedTuple):
     """A definition of the slip ratio: its form, the radius in it, and what it leaves."""
 
-    form: _Form
+    form: _SlipForm
     radius: str
     left: Array
 
 
-def _kinds(form: _Form, slip: Array, turns: Array, radii: Mapping[str, Array]) -> list[_Definition]:
+def _kinds(form: _SlipForm, slip: Array, turns: Array, radii: Mapping[str, Array]) -> list[_SlipDefinition]:
     """Return one form with each radius, and with the constant one that fits best."""
     with np.errstate(divide="ignore", invalid="ignore"):
         rolls = 1.0 + form.back(slip)
         constant = np.full(slip.size, float(turns @ rolls) / float(turns @ turns))
-        every = {_CONSTANT: constant, **radii}
-        found = [_Definition(form, n, slip - form.of(turns * r - 1.0)) for n, r in every.items()]
+        every = {_BY_UNKNOWN_RADIUS: constant, **radii}
+        found = [_SlipDefinition(form, n, slip - form.of(turns * r - 1.0)) for n, r in every.items()]
     return [each for each in found if np.isfinite(each.left).all()]
 
 
-def _said(found: list[_Definition]) -> list[Issue]:
+def _said(found: list[_SlipDefinition], slip: Array) -> list[Issue]:
     """Report the best of the definitions, if it is not the usual one."""
     best = min(found, key=lambda each: float(each.left @ each.left))
     number = best.left.size / rows_of_one(best.left)
-    least = float(np.finfo(float).tiny)
+    least = float(np.finfo(float).eps) * float(np.mean(slip**2))
 
-    def cost(each: _Definition) -> float:
-        unusual = (each.form is not _FORMS[0]) + (each.radius != _OWN)
+    def cost(each: _SlipDefinition) -> float:
+        unusual = (
+            (each.form is not _SLIP_FORMS[0])
+            + (each.radius != _BY_EFFECTIVE_RADIUS)
+            + (each.radius == _BY_UNKNOWN_RADIUS)
+        )
         return number * float(np.log(max(np.mean(each.left**2), least))) + unusual * float(np.log(number))
 
     form, radius, left = min(found, key=cost)
-    if form is _FORMS[0] and radius != _LOADED:
+    if form is _SLIP_FORMS[0] and radius != _BY_LOADED_RADIUS:
         return []
     of = f"wheel_speed x {radius or 'a radius'} / speed"
     what = form.words.format(of) if form.words else f"{of} - 1"
     where = f"slip_ratio, which is {what}, within {in_digits(float(np.sqrt(np.mean(left**2))))} RMS"
     todo = [form.todo] if form.todo else []
-    if radius == _LOADED:
+    if radius == _BY_LOADED_RADIUS:
         todo.append(
             "by the loaded radius it is not zero at free rolling, from where the Magic Formula counts: use "
             "the slip ratio by the effective radius"
