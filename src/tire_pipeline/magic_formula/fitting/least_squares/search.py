@@ -9,6 +9,7 @@ import numpy as np
 
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem, minimum, quick
 from tire_pipeline.magic_formula.fitting.setup import typical
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import LOAD, ONE_SIDED_RATIO, ONE_SIDED_SLIP
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
@@ -127,18 +128,23 @@ def most_typical(
     for pull in eases:
         eased.append(drawn_by.solved(thin, pull, eased[-1], 1e-5))
     found = [best, *(values for values in others if problem.left(values) <= most)]
+    one_sided = bool(held[np.isin(problem.names, [*(ONE_SIDED_SLIP | ONE_SIDED_RATIO) - LOAD])].any())
     owns = (best, drawn_by.solved(problem, pulls[-1], eased[-1], 1e-7))
     for each in (drawn_by, _Drawn(problem, bounds, best, "linear")):
         pulled = [values for own in owns for values in each.strongest(thin, pulls, own, most)]
         found += pulled
-        if pulled and not held.any():
+        if pulled and not one_sided:
             break
     weight = np.where(held, _HOLDS[0], 1.0) / problem.pull.spread
     return min(found, key=lambda x: float(np.sum((weight * (x - problem.pull.centre)) ** 2)))
 
 
 class _Drawn:
-    """A problem with pulls, by one loss: the least squares get down to an RMS that a robust loss may not."""
+    """A problem with pulls, by one loss.
+
+    Least squares get down to an RMS at which a robust loss stops short. It matters most where the slip has
+    one sign: shifts, which may then stand for a part of the level, give the whole force of the other sign.
+    """
 
     def __init__(self, problem: Problem, bounds: Bounds, best: np.ndarray, loss: str) -> None:
         self.problem, self.bounds, self.best, self.loss = problem, bounds, best, loss
