@@ -60,3 +60,13 @@ def test_fit_takes_several_recordings_together(folder):
     found = told("fit", "run1.csv", "run2.csv", "-o", "out.tir", "--start", "a.tir", "--no-page")
     assert found["recordings"] == ["run1.csv", "run2.csv"]
     assert any("joined" in note for note in found["notes"])
+
+
+def test_fit_says_which_slip_ratio_it_was_given(folder):
+    record("run.csv", seconds=30.0)
+    slip = 0.1 * np.sin(np.linspace(0.0, 40.0, len(pd.read_csv("run.csv"))))
+    ratio = {"wheel_speed": (1.0 + slip) / 0.31 * 10.0, "speed": 10.0, "loaded_radius": 0.3}
+    given = pd.read_csv("run.csv").assign(slip_ratio=0.3 / 0.31 * (1.0 + slip) - 1.0, **ratio)
+    given.to_csv("run.csv", index=False)
+    found = told("fit", "run.csv", "-o", "out.tir", "--no-page")
+    assert any("which is wheel_speed x loaded_radius / speed - 1" in note for note in found["notes"])

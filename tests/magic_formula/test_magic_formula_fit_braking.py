@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -101,3 +102,32 @@ def test_a_mirrored_camber_is_no_success(sign, told):
         warnings.simplefilter("always", PoorFitWarning)
         fit_magic_formula(table, starts=2)
     assert any("away from the side to which the wheel leans" in str(w.message) for w in caught) is told
+
+
+def brake_rounds(true, seed):
+    """Sweeps of slip ratio at 0, -3 and -6 deg; the force is a sample late, and falls as the tread warms."""
+    rng = np.random.default_rng(seed)
+    sweep = np.interp(np.linspace(0.0, 5.0, 90), [0.0, 1.0, 2.0, 4.0, 5.0], [0.0, 0.0, 0.2, -0.2, 0.0])
+    parts = []
+    for held, camber, load in product(np.radians([0.0, -3.0, -6.0]), (0.0, 0.035), (0.5, 1.0, 1.5)):
+        part = pd.DataFrame({"slip_ratio": sweep, "camber": camber})
+        part["slip_angle"] = held + rng.normal(0.0, 5e-4, sweep.size)
+        part["normal_load"] = load * true.value("FNOMIN") + rng.normal(0.0, 25.0, sweep.size)
+        late = part.assign(slip_ratio=np.r_[0.0, sweep[:-1]])
+        forces = true.forces(**{name: late[name].to_numpy() for name in late}, limits="ignore")
+        warm = 1.0 - np.linspace(0.0, 0.15, sweep.size)
+        parts.append(part.assign(fy=forces.fy * warm + rng.normal(0.0, 20.0, sweep.size)))
+    return pd.concat(parts, ignore_index=True)
+
+
+@pytest.mark.parametrize("seed", [2, 3])
+def test_slip_angles_to_one_side_give_the_other_side_too(seed):
+    """PVY1 was 0.5 and PVY2 0.5: at the slip angles of the other sign Fy was 0.4 to 1.4 times the tire's."""
+    true = tire_52().replace(
+        PDY1=2.2, PDX1=2.3, PKY1=-75.0, PKX1=80.0, PKY2=2.5, RBX1=35.0, RBY1=32.0,
+        PVY1=0.03, PHY1=0.003, PHY2=0.002, PVY2=0.01, PVY3=0.0, PVY4=0.0, PHY3=0.0,
+    )  # fmt: skip
+    fit = fit_magic_formula(brake_rounds(true, seed), starts=4)
+    there = {"slip_angle": np.radians([3.0, 6.0, 9.0]), "normal_load": true.value("FNOMIN")}
+    found, expected = (m.forces(**there, limits="ignore", outputs=("fy",)).fy for m in (fit.model, true))
+    assert found == pytest.approx(expected, rel=0.1)

@@ -56,15 +56,19 @@ def command(
     """Fit a model."""
     from tire_pipeline.magic_formula import fit_magic_formula
     from tire_pipeline.recordings import join_recordings
+    from tire_pipeline.recordings.issue import issue_in_words
+    from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
     from tire_pipeline.recordings.spikes import without_spikes
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
     check_target(target, overwrite, *runs, *([start] if start else []))
-    recordings, spiked = {}, []
+    recordings, remarked = {}, []
     for name, run in read_runs(runs, axes=axes, units=units, names=names, format_=format_).items():
         recordings[name], remarks = without_spikes(run)
-        spiked += [f"{name}: {said}" for said in remarks]
+        remarked += [
+            f"{name}: {said}" for said in [*remarks, *map(issue_in_words, slip_ratio_defined_otherwise(run))]
+        ]
     joined = join_recordings(recordings) if len(recordings) > 1 else next(iter(recordings.values()))
     result = fit_magic_formula(
         joined,
@@ -88,7 +92,7 @@ def command(
         digits=COMPUTED_DIGITS,
         overwrite=overwrite,
     )
-    notes = [*spiked, *joined.attrs.get("notes", []), *result.notes]
+    notes = [*remarked, *joined.attrs.get("notes", []), *result.notes]
     finish(_outcome(result, list(recordings), target, notes), f"{target.stem}_fit", **output)
 
 

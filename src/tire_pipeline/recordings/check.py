@@ -22,7 +22,12 @@ from tire_pipeline.recordings.conventions.plausible import (
     units_of_larger_loads,
 )
 from tire_pipeline.recordings.issue import Issue
-from tire_pipeline.recordings.physical_signs import moment_of_other_sign, side_force_away_from_the_lean
+from tire_pipeline.recordings.physical_signs import (
+    moment_beyond_reach,
+    moment_of_other_sign,
+    side_force_away_from_the_lean,
+)
+from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
 from tire_pipeline.recordings.spikes import said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
 from tire_pipeline.recordings.unit_jumps import unit_jumps
@@ -229,6 +234,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
         issues += _spikes(str(column), values) if column in USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
+    issues += slip_ratio_defined_otherwise(frame) + moment_beyond_reach(frame)
     return issues + moment_of_other_sign(frame) + side_force_away_from_the_lean(frame)
 
 

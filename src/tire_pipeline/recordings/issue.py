@@ -45,3 +45,8 @@ class Issue:
 
     def __str__(self) -> str:
         return f"{self.severity}: {self.name} ({self.where}) -> {self.advice}"
+
+
+def issue_in_words(issue: Issue) -> str:
+    """Return what is wrong and what to do, for notes that give no severity."""
+    return f"{issue.where}: {issue.advice}"

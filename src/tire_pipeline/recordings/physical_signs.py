@@ -1,4 +1,4 @@
-"""Whether forces and moments have the signs that physics gives them: pneumatic trail and camber thrust."""
+"""Whether forces and moments are a tire's: signs of pneumatic trail and camber thrust, arm of the moment."""
 
 from __future__ import annotations
 
@@ -7,17 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
+from tire_pipeline.pages.numbers_in_words import in_digits
+from tire_pipeline.recordings.conventions.plausible import WHEEL_RADII, plausible, size
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
 _OF_TRAIL = ("slip_angle", "normal_load", "fy", "mz")
 _SMALL_PART = 0.33
 """Slip angles up to this part of the largest are small: the moment has its peak near that."""
-_STRAIGHT = 0.5
+STRAIGHT = 0.5
 """Squared correlation with the slip angle from which a slope is one."""
-_FEWEST_ROWS = 10
+FEWEST_ROWS = 10
 
 
 def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
@@ -41,7 +44,7 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
     if not good.any():
         return []
     good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
-    if np.sum(good) < _FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
+    if np.sum(good) < FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
         return []
     of_force, of_moment = (_slope(slip[good], y[good] / load[good]) for y in (fy, mz))
     if of_force * of_moment <= 0.0:
@@ -79,6 +82,30 @@ def side_force_away_from_the_lean(frame: pd.DataFrame) -> list[Issue]:
     ]
 
 
+def moment_beyond_reach(frame: pd.DataFrame) -> list[Issue]:
+    """Report an aligning moment whose arm is longer than the wheel's radius: no contact patch is.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    sizes = {n: size(*held) for n in ("mz", *TANGENTIAL_FORCES) if (held := _columns(frame, (n,)))}
+    force = max((x for n, x in sizes.items() if n != "mz" and x > 0.0), default=0.0)
+    if not force or not sizes.get("mz", 0.0) > 0.0:
+        return []
+    radii = [size(*held) for n in ("loaded_radius", "effective_radius") if (held := _columns(frame, (n,)))]
+    longest = max((r for r in radii if plausible("loaded_radius", r)), default=WHEEL_RADII[1])
+    arm = sizes["mz"] / force
+    if not arm > longest:
+        return []
+    where = f"mz, up to {in_digits(sizes['mz'])} N m beside forces of up to {in_digits(force)} N"
+    todo = (
+        f"an arm of {in_digits(arm)} m is longer than the wheel's radius: look at the units of mz and forces"
+    )
+    return [Issue("implausible_moment", "warning", where, todo)]
+
+
 def _columns(frame: pd.DataFrame, names: Sequence[str]) -> list[np.ndarray]:
     """Return some columns; nothing where one of them is missing or holds no numbers."""
     if any(name not in frame or not pd.api.types.is_numeric_dtype(frame[name]) for name in names):
@@ -90,4 +117,4 @@ def _slope(x: np.ndarray, y: np.ndarray) -> float:
     """Return the slope of a straight line; 0 where there is none."""
     x, y = x - x.mean(), y - y.mean()
     squares = float(x @ x) * float(y @ y)
-    return float(x @ y) / float(x @ x) if squares > 0.0 and float(x @ y) ** 2 > _STRAIGHT * squares else 0.0
+    return float(x @ y) / float(x @ x) if squares > 0.0 and float(x @ y) ** 2 > STRAIGHT * squares else 0.0

@@ -3,6 +3,7 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from brake_rig import brake_sweeps, weighted
 from small_rig import EXACT_FAULTS, schedule
 from weighed import all_but
 
@@ -241,3 +242,12 @@ def test_a_load_of_both_signs_is_no_recording_to_explain(tire, record):
     report = explain_mismatch(tire, recording.assign(normal_load=half * recording["normal_load"]))
     assert report.verdict == "unusable"
     assert "normal_load is negative in" in report.summary
+
+
+def test_a_slip_ratio_by_the_loaded_radius_is_told(tire):
+    frame = brake_sweeps(weighted(tire), [0.0]).assign(effective_radius=0.31, loaded_radius=0.3)
+    frame["wheel_speed"] = (1.0 + frame["slip_ratio"]) * frame["speed"] / 0.31
+    told = "slip_ratio, which is wheel_speed x loaded_radius / speed - 1"
+    assert not any(told in note for note in prepare(tire, frame).notes)
+    loaded = frame.assign(slip_ratio=0.3 * frame["wheel_speed"] / frame["speed"] - 1.0)
+    assert any(told in note for note in prepare(tire, loaded).notes)

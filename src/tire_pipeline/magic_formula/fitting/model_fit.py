@@ -367,5 +367,5 @@ def _unlike_tires(outcome: Outcome, names: Sequence[str]) -> str:
         for name, centre, spread in rows
         if name in names and abs(outcome.values[name] - centre) > spread
     ]
-    where = "the model holds only at the loads, cambers, pressures and speeds that were recorded"
+    where = "the model holds only at the slips, loads, cambers, pressures and speeds that were recorded"
     return f". {', '.join(far)}: {where}" if far else ""

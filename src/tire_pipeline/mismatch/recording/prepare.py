@@ -36,6 +36,8 @@ from tire_pipeline.mismatch.recording.usable import (
 from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.recordings.check import LONG_STEP
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
+from tire_pipeline.recordings.issue import issue_in_words
+from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
     LEAST_SAMPLES,
@@ -174,7 +176,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     _check_together(arrays)
     if time is not None:
         _bridge(arrays, notes)
-    notes += _on_time(time)
+    notes += [*_on_time(time), *map(issue_in_words, slip_ratio_defined_otherwise(recording))]
     rows = _usable(arrays, time, notes)
     arrays, time = _part(rows, arrays, time)
     still = standing(arrays, notes)

@@ -9,6 +9,7 @@ import numpy as np
 
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem, minimum, quick
 from tire_pipeline.magic_formula.fitting.setup import typical
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import LOAD, ONE_SIDED_RATIO, ONE_SIDED_SLIP
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
@@ -22,11 +23,14 @@ _GO_ON = 3
 """Minima that go on to more points."""
 _EQUAL = 0.003
 """Relative difference in misfit up to which two searches have found the same minimum."""
-_PULLS = (
-    *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
-    *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
-)
-"""Strengths of the pull on what the ranges cannot determine and on the rest, strongest first."""
+_SHARES = (1.0, 0.3, 0.1, 0.03, 0.01)
+"""Strengths of the pull towards typical values, strongest first."""
+_HOLDS = (1000.0, 100.0, 10.0, 3.0)
+"""The same on what the ranges cannot determine."""
+_EASED = (*((hold, _SHARES[0]) for hold in _HOLDS), *((share, share) for share in _SHARES))
+"""Both, as they are eased from the strongest."""
+_HELD = (*((hold, share) for hold in (*_HOLDS, 1.0) for share in _SHARES), *_EASED[-len(_SHARES) + 1 :])
+"""Both, as they are tried: all else leaves typical values before what the ranges cannot determine does."""
 _LEAST_PULL = 1e-6
 """Strength of the pull that keeps a search well posed, over the largest force."""
 
@@ -114,31 +118,57 @@ def most_typical(
         width = ROBUST_WIDTH * typical.FORMULA_ERROR * largest
         drawn = problem.drawn(typical.FORMULA_ERROR * largest)
         return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
-    spread = noise(problem, best, loss)
-    width = max(ROBUST_WIDTH * spread, 1e-6 * largest)
-    pulls = [np.where(held, hold, share) for hold, share in (_PULLS if held.any() else _PULLS[-5:])]
-
-    def solved(part: Problem, pull: np.ndarray, begin: np.ndarray, tolerance: float) -> np.ndarray:
-        one = spread * np.sqrt(rows_of_one(part.residuals(best)))
-        return minimum(part.drawn(one * pull), bounds, begin, loss=loss, width=width, tolerance=tolerance)
-
+    eases, pulls = (
+        [np.where(held, hold, share) for hold, share in (each if held.any() else _EASED[-len(_SHARES) :])]
+        for each in (_EASED, _HELD)
+    )
+    drawn_by = _Drawn(problem, bounds, best, loss)
     thin = problem.thinned(_SEARCH_ROUNDS[1][0])
     eased = [problem.pull.centre]
-    for pull in pulls:
-        eased.append(solved(thin, pull, eased[-1], 1e-5))
+    for pull in eases:
+        eased.append(drawn_by.solved(thin, pull, eased[-1], 1e-5))
     found = [best, *(values for values in others if problem.left(values) <= most)]
-    for own in (best, solved(problem, pulls[-1], eased[-1], 1e-7)):
-        limit = min(most, (1.0 + _ADDED_BY_PULL) * problem.misfit(own))
-        rough = limit * thin.misfit(own) / max(problem.misfit(own), 1e-300)
-        for pull in pulls:
-            values = solved(thin, pull, own, 1e-5)
-            if thin.misfit(values) <= rough:
-                values = solved(problem, pull, values, 1e-7)
-                if problem.left(values) <= limit:
-                    found.append(values)
-                    break
-    weight = np.where(held, _PULLS[0][0], 1.0) / problem.pull.spread
+    one_sided = bool(held[np.isin(problem.names, [*(ONE_SIDED_SLIP | ONE_SIDED_RATIO) - LOAD])].any())
+    owns = (best, drawn_by.solved(problem, pulls[-1], eased[-1], 1e-7))
+    for each in (drawn_by, _Drawn(problem, bounds, best, "linear")):
+        pulled = [values for own in owns for values in each.strongest(thin, pulls, own, most)]
+        found += pulled
+        if pulled and not one_sided:
+            break
+    weight = np.where(held, _HOLDS[0], 1.0) / problem.pull.spread
     return min(found, key=lambda x: float(np.sum((weight * (x - problem.pull.centre)) ** 2)))
+
+
+class _Drawn:
+    """A problem with pulls, by one loss.
+
+    Least squares get down to an RMS at which a robust loss stops short. It matters most where the slip has
+    one sign: shifts, which may then stand for a part of the level, give the whole force of the other sign.
+    """
+
+    def __init__(self, problem: Problem, bounds: Bounds, best: np.ndarray, loss: str) -> None:
+        self.problem, self.bounds, self.best, self.loss = problem, bounds, best, loss
+        self.spread = noise(problem, best, loss)
+        self.width = max(ROBUST_WIDTH * self.spread, 1e-6 * float(np.abs(problem.measured).max()))
+
+    def solved(self, part: Problem, pull: np.ndarray, begin: np.ndarray, tolerance: float) -> np.ndarray:
+        """Return the minimum on some of the rows with a pull in units of one independent row."""
+        drawn = part.drawn(self.spread * np.sqrt(rows_of_one(part.residuals(self.best))) * pull)
+        return minimum(drawn, self.bounds, begin, loss=self.loss, width=self.width, tolerance=tolerance)
+
+    def strongest(
+        self, thin: Problem, pulls: Sequence[np.ndarray], own: np.ndarray, most: float
+    ) -> list[np.ndarray]:
+        """Return the minimum by the strongest of some pulls that leaves little more than it did, or none."""
+        limit = min(most, (1.0 + _ADDED_BY_PULL) * self.problem.misfit(own))
+        rough = limit * thin.misfit(own) / max(self.problem.misfit(own), 1e-300)
+        for pull in pulls:
+            values = self.solved(thin, pull, own, 1e-5)
+            if thin.misfit(values) <= rough:
+                values = self.solved(self.problem, pull, values, 1e-7)
+                if self.problem.left(values) <= limit:
+                    return [values]
+        return []
 
 
 def are_few(problem: Problem) -> bool:
