@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import TANGENTIAL_FORCES, TIRE_RADII
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.pages.numbers_in_words import in_digits
-from tire_pipeline.recordings.conventions.plausible import WHEEL_RADII, plausible, size
+from tire_pipeline.recordings.conventions.plausible import plausible, size
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
@@ -95,7 +95,7 @@ def moment_beyond_reach(frame: pd.DataFrame) -> list[Issue]:
     if not force or not sizes.get("mz", 0.0) > 0.0:
         return []
     radii = [size(*held) for n in ("loaded_radius", "effective_radius") if (held := _columns(frame, (n,)))]
-    longest = max((r for r in radii if plausible("loaded_radius", r)), default=WHEEL_RADII[1])
+    longest = max((r for r in radii if plausible("loaded_radius", r)), default=TIRE_RADII[1])
     arm = sizes["mz"] / force
     if not arm > longest:
         return []

@@ -12,13 +12,13 @@ from weighed import all_but, without_visible
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
+from tire_pipeline.mismatch.unnamed_physics.against_names import NamesToBeat
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import judged
-from tire_pipeline.mismatch.unnamed_physics.rival import Rival
 from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
 from tire_pipeline.mismatch.unnamed_physics.where_it_holds import distance, way_through_play
 from tire_pipeline.tir import read_tir
@@ -153,7 +153,7 @@ def test_an_equation_beats_names_that_take_up_a_part_and_not_those_that_take_up_
     seen = problem(by_speed, noise=NOISE)
     part = by_speed(seen.table)
     names = {o: rest - taken_up * part if o == "fy" else rest for o, rest in seen.rest.items()}
-    found = find_better(seen, Rival(names))
+    found = find_better(seen, NamesToBeat(names))
     assert (found is not None) is beaten
     if found is not None:
         assert found.physics.depends_on == ("speed",)

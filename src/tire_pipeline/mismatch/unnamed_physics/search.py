@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.model.channels import CLASSES, one_sided, span, whit
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
+from tire_pipeline.mismatch.unnamed_physics.against_names import Acting, NamesToBeat
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.chosen_equation import (
     LISTED,
@@ -47,7 +48,6 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
-from tire_pipeline.mismatch.unnamed_physics.rival import Acting, Rival
 from tire_pipeline.mismatch.unnamed_physics.where_it_holds import distance, way_through_play
 
 Array = np.ndarray
@@ -114,7 +114,7 @@ def instead_of_names(analysis: Analysis, sets: Enumerated, answer: SetAnswer) ->
     """
     columns = Columns(by_condition(problem_of(with_fit(analysis, Fit([], [])))))
     names = each_left_out(analysis, analysis.fit, together=columns.fold_of_sweep)
-    found, left = _better(columns, Rival(names, sets, answer))
+    found, left = _better(columns, NamesToBeat(names, sets, answer))
     if found is None or _stay(analysis, names, left):
         return None
     return replace(found, instead_of=tuple(analysis.fit.names))
@@ -129,12 +129,12 @@ def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Ar
     return size_over_largest(beside, problem.largest) < size_over_largest(alone, problem.largest)
 
 
-def find_better(problem: Unexplained, rival: Rival) -> UnnamedReport | None:
+def find_better(problem: Unexplained, rival: NamesToBeat) -> UnnamedReport | None:
     """The same against any rival."""
     return _better(Columns(problem), rival)[0]
 
 
-def _better(columns: Columns, rival: Rival) -> tuple[UnnamedReport | None, dict[str, Array]]:
+def _better(columns: Columns, rival: NamesToBeat) -> tuple[UnnamedReport | None, dict[str, Array]]:
     """Return what is better than a rival, and what it leaves on unseen sweeps, N."""
     problem, choice = columns.problem, choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]

@@ -23,13 +23,19 @@ _GO_ON = 3
 """Minima that go on to more points."""
 _EQUAL = 0.003
 """Relative difference in misfit up to which two searches have found the same minimum."""
-_SHARES = (1.0, 0.3, 0.1, 0.03, 0.01)
+_STRENGTHS = (1.0, 0.3, 0.1, 0.03, 0.01)
 """Strengths of the pull towards typical values, strongest first."""
-_HOLDS = (1000.0, 100.0, 10.0, 3.0)
+_HELD_STRENGTHS = (1000.0, 100.0, 10.0, 3.0)
 """The same on what the ranges cannot determine."""
-_EASED = (*((hold, _SHARES[0]) for hold in _HOLDS), *((share, share) for share in _SHARES))
+_EASED_PULLS = (
+    *((hold, _STRENGTHS[0]) for hold in _HELD_STRENGTHS),
+    *((share, share) for share in _STRENGTHS),
+)
 """Both, as they are eased from the strongest."""
-_HELD = (*((hold, share) for hold in (*_HOLDS, 1.0) for share in _SHARES), *_EASED[-len(_SHARES) + 1 :])
+_HELD_PULLS = (
+    *((hold, share) for hold in (*_HELD_STRENGTHS, 1.0) for share in _STRENGTHS),
+    *_EASED_PULLS[-len(_STRENGTHS) + 1 :],
+)
 """Both, as they are tried: all else leaves typical values before what the ranges cannot determine does."""
 _LEAST_PULL = 1e-6
 """Strength of the pull that keeps a search well posed, over the largest force."""
@@ -119,8 +125,11 @@ def most_typical(
         drawn = problem.drawn(typical.FORMULA_ERROR * largest)
         return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
     eases, pulls = (
-        [np.where(held, hold, share) for hold, share in (each if held.any() else _EASED[-len(_SHARES) :])]
-        for each in (_EASED, _HELD)
+        [
+            np.where(held, hold, share)
+            for hold, share in (each if held.any() else _EASED_PULLS[-len(_STRENGTHS) :])
+        ]
+        for each in (_EASED_PULLS, _HELD_PULLS)
     )
     drawn_by = _Drawn(problem, bounds, best, loss)
     thin = problem.thinned(_SEARCH_ROUNDS[1][0])
@@ -135,7 +144,7 @@ def most_typical(
         found += pulled
         if pulled and not one_sided:
             break
-    weight = np.where(held, _HOLDS[0], 1.0) / problem.pull.spread
+    weight = np.where(held, _HELD_STRENGTHS[0], 1.0) / problem.pull.spread
     return min(found, key=lambda x: float(np.sum((weight * (x - problem.pull.centre)) ** 2)))
 
 

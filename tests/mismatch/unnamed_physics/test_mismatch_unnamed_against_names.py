@@ -10,11 +10,11 @@ from tire_pipeline.mismatch import Explainer
 from tire_pipeline.mismatch.inference.analysis import with_fit
 from tire_pipeline.mismatch.inference.evidence.hypotheses import plain_evidence
 from tire_pipeline.mismatch.inference.linearised_set import Fit
+from tire_pipeline.mismatch.unnamed_physics.against_names import Acting, NamesToBeat
 from tire_pipeline.mismatch.unnamed_physics.choose import choose
 from tire_pipeline.mismatch.unnamed_physics.problems.forces_residual import problem_of
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
-from tire_pipeline.mismatch.unnamed_physics.rival import Acting, Rival
 
 FEW = all_but("friction_scale", "stiffness_scale", "force_offset")
 
@@ -49,7 +49,7 @@ def test_a_term_of_an_equation_has_the_size_of_the_largest_force(equation):
 
 def test_an_equation_is_no_likelier_than_the_true_name_whose_form_it_resembles(softer, equation):
     assert softer.answer.names == ("friction_scale",)
-    assert not Rival({}, softer.sets, softer.answer).less_likely_than([equation])
+    assert not NamesToBeat({}, softer.sets, softer.answer).less_likely_than([equation])
 
 
 def test_an_equation_is_likelier_than_names_of_less_evidence_by_its_price(softer, equation):
@@ -59,7 +59,7 @@ def test_an_equation_is_likelier_than_names_of_less_evidence_by_its_price(softer
     evidence = softer.sets.log_evidence_of(columns, 0.05)
     for away, likelier in ((-0.01, True), (0.01, False)):
         answer = replace(softer.answer, log_weight=evidence - equation.price + away)
-        assert Rival({}, softer.sets, answer).less_likely_than([equation]) is likelier
+        assert NamesToBeat({}, softer.sets, answer).less_likely_than([equation]) is likelier
 
 
 def test_the_weight_of_the_names_is_their_share_of_the_posterior(softer):

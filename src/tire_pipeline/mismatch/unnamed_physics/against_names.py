@@ -43,7 +43,7 @@ class Acting:
 
 
 @dataclass(frozen=True)
-class Rival:
+class NamesToBeat:
     """What an equation has to beat.
 
     Parameters
