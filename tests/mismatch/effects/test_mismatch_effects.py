@@ -2,8 +2,9 @@ import dataclasses
 
 import numpy as np
 import pytest
+from weighed import all_but
 
-from tire_pipeline.mismatch import CorrectedModel
+from tire_pipeline.mismatch import CorrectedModel, Explainer
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_interval
 from tire_pipeline.mismatch.effects.shared import harmonic_power, own_relaxation
@@ -121,6 +122,48 @@ def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
     small, large = np.abs(data.get("slip_angle")) < 0.004, np.abs(data.get("slip_angle")) > 0.15
     assert np.nanmedian(ratio[small]) == pytest.approx(1.0, abs=0.02)
     assert np.nanmedian(ratio[large]) == pytest.approx(1.2, abs=0.03)
+
+
+def test_a_file_that_is_right_at_another_load_needs_no_other_friction_level(tire, record):
+    """A second name, friction, came up beside the load wherever a file was not right at its nominal load."""
+    few = all_but("load_sensitivity", "friction_scale", "stiffness_scale", "load_gain", "load_offset")
+    recording = record()
+    data = prepare(tire, recording).data
+    truth = {"rate": -0.3, "stiffness": 0.0, "lateral_stiffness": 0.0, "right_at": 1.6, "power": 0.0}
+    forces, base = simulate(data, [("load_sensitivity", truth)]), data.simulation.base
+    recording = recording.assign(fy=recording["fy"] + forces["fy"] - base["fy"])
+    answer = Explainer(without=few).weigh(tire, recording).answer
+    assert answer.names == ("load_sensitivity",)
+    found = dict(answer.named.changes)["load_sensitivity"]
+    assert found["rate"] == pytest.approx(truth["rate"], abs=0.05)
+    assert found["right_at"] == pytest.approx(truth["right_at"], abs=0.2)
+
+
+@pytest.mark.parametrize("power", [0.0, 1.0])
+def test_a_model_is_as_it_came_at_the_load_at_which_it_is_right(power, tire, record):
+    data = prepare(tire, record()).data
+    load = data.get("normal_load")
+    right_at = load[load.size // 2] / data.nominal.load
+    there = np.isclose(load, right_at * data.nominal.load, rtol=1e-3)
+    changed = simulate(
+        data,
+        [
+            (
+                "load_sensitivity",
+                {
+                    "rate": -0.3,
+                    "right_at": right_at,
+                    "power": power,
+                    "stiffness": 0.1,
+                    "lateral_stiffness": 0.0,
+                },
+            )
+        ],
+    )["fy"]
+    off = np.abs(changed - data.simulation.base["fy"]) / np.abs(changed).max()
+    assert there.any()
+    assert off[there].max() < 1e-3
+    assert off[~there].max() > 1e-2
 
 
 def test_a_delay_moves_the_force_by_its_time(tire, record):

@@ -59,7 +59,7 @@ class OfModel(Protocol):
     def knows_camber(self) -> bool:
         """Whether the lateral force answers to camber."""
 
-    def load_excess(self, load: Array) -> Array:
+    def load_excess(self, load: Array, right_at: float = 1.0) -> Array:
         """Return ``(Fz - Fz0) / Fz0``, faded outside of the loads that were explained."""
 
 

@@ -117,20 +117,19 @@ class NominalConditions:
         """Unloaded radius, m."""
         return float(self.coefficients.get("UNLOADED_RADIUS", ASSUMED_RADIUS))
 
-    def load_excess(self, load: Array) -> Array:
-        """Return ``(Fz - Fz0) / Fz0``, which fades outside of the loads that the effects were fitted to.
+    def load_excess(self, load: Array, right_at: float = 1.0) -> Array:
+        """Return ``Fz / Fz0 - right_at``, which fades outside of the loads that the effects were fitted to.
 
         A line through the recorded loads does not hold at others: it goes to zero there, over the width of
         what was recorded, and the model that came in stays.
         """
-        excess = (load - self.load) / self.load
         if self.reference.load_range is None:
-            return excess
+            return load / self.load - right_at
         low, high = self.reference.load_range
         inside = np.clip(load, low, high)
         width = max(high - low, least_spread("normal_load", load))
         faded = 1.0 - np.abs(load - inside) / width
-        return (inside - self.load) / self.load * np.maximum(faded, 0.0)
+        return (inside / self.load - right_at) * np.maximum(faded, 0.0)
 
     @cached_property
     def pressure_levels(self) -> list[float]:

@@ -13,6 +13,8 @@ from tire_pipeline.mismatch.effects.shared import beyond_known, in_both_forms, s
 class LoadSensitivity(Effect):
     """The model is right at one load and wrong above and below it: a file fitted at one load.
 
+    That load is the nominal one, or another: a file is fitted at the loads that were measured.
+
     Covers friction that falls with load (PDX2, PDY2), one rate for both forces, and slip stiffness over
     load that falls with load (the cornering stiffness saturates: PKY1, PKY2; PKX2, PKX3), apart for the
     lateral force where both forces move. Either in proportion to the load, as Magic Formulas have it, or by
@@ -23,9 +25,9 @@ class LoadSensitivity(Effect):
     name = "load_sensitivity"
     title = "another change of friction and stiffness with load"
     equation = (
-        "d = (Fz - Fz0) / Fz0; friction *= 1 + rate d; stiffness *= 1 + stiffness d; "
-        "lateral stiffness also *= 1 + lateral_stiffness d. Where `power` is 1: friction *= (Fz / Fz0)^rate, "
-        "and so on"
+        "d = Fz / Fz0 - right_at; friction *= 1 + rate d; stiffness *= 1 + stiffness d; "
+        "lateral stiffness also *= 1 + lateral_stiffness d. Where `power` is 1: "
+        "friction *= (Fz / Fz0 / right_at)^rate, and so on"
     )
     source = (
         "MF 5.2: mu = PDY1 + PDY2 dfz, K = PKY1 Fz0 sin(2 arctan(Fz / (PKY2 Fz0))), PKX2, PKX3 (thesis, "
@@ -33,11 +35,15 @@ class LoadSensitivity(Effect):
     )
     channels = ("normal_load",)
     family = "scale"
-    prior_source = "PDX2, PDY2 and the curvature of the stiffness over load of published files: tenths"
+    prior_source = (
+        "PDX2, PDY2 and the curvature of the stiffness over load of published files: tenths; loads of test "
+        "plans: a third to 1.7 of the nominal load"
+    )
     parameters = (
         Parameter("rate", "1", -1.5, 1.5, 0.01, prior=0.2),
         Parameter("stiffness", "1", -1.5, 1.5, 0.01, prior=0.3),
         Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy", prior=0.3),
+        Parameter("right_at", "1", 0.2, 3.0, 0.02, zero=1.0, form=True, further=True, prior=0.3),
         Parameter("power", "0 or 1", 0.0, 1.0, 0.1, form=True),
     )
     looks_like = {
@@ -55,7 +61,7 @@ class LoadSensitivity(Effect):
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
         both = data.simulation.driven("fx") and data.simulation.driven("fy")
-        return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
+        return ("rate", "stiffness", *(("lateral_stiffness",) if both else ()), "right_at")
 
     def expected(self, data: Context) -> bool:
         """The file does not know the recording's loads."""
@@ -63,11 +69,12 @@ class LoadSensitivity(Effect):
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
-        excess = data.nominal.load_excess(state.normal_load)
+        right_at = _right_at(p)
+        excess = data.nominal.load_excess(state.normal_load, right_at)
 
         def log_factor(name: str) -> Array:
             return np.asarray(
-                p[name] * safe_log1p(excess) if p["power"] >= 0.5 else safe_log1p(p[name] * excess)
+                p[name] * safe_log1p(excess / right_at) if p["power"] >= 0.5 else safe_log1p(p[name] * excess)
             )
 
         state.log_friction = state.log_friction + log_factor("rate")
@@ -75,15 +82,21 @@ class LoadSensitivity(Effect):
         state.log_stiffness_y = state.log_stiffness_y + log_factor("lateral_stiffness")
 
     def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
-        """PDX2 and PDY2; a power, or a stiffness that is linear in load, has no place beside PKY2."""
+        """PDX1 to PDY2; a power, or a stiffness that is linear in load, has no place beside PKY2."""
         if p["power"] or p["stiffness"] or p["lateral_stiffness"]:
             return {}
         c = tire.coefficients
-        out = {}
+        out: dict[str, float] = {}
         for axis in "XY":
             peak, fall = c.get(f"PD{axis}1", 1.0), c.get(f"PD{axis}2", 0.0)
-            out[f"PD{axis}2"] = fall + peak * p["rate"]
+            level = 1.0 + p["rate"] * (1.0 - _right_at(p))
+            out |= {f"PD{axis}1": peak * level, f"PD{axis}2": fall * level + peak * p["rate"]}
         return out
+
+
+def _right_at(p: Parameters) -> float:
+    """Load over the nominal one at which the model is right; files of before 2026-11-30 state none."""
+    return p.get("right_at", 1.0)
 
 
 def _far_outside(data: Context) -> bool:
