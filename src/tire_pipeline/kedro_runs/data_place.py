@@ -20,9 +20,15 @@ def data_place(context: Any) -> Path | Objects:
     Raises
     ------
     DomainError
-        Its name reads as a pattern: the versions in it would never be found again.
+        It is no text, or its name reads as a pattern: the versions in it would never be found again.
     """
     data = context.config_loader["globals"].get("data", "data")
+    if not isinstance(data, str):
+        raise DomainError(
+            f"`data` is {data!r}, which is no path",
+            where="conf/*/globals.yml",
+            todo="write a folder or an address, in quotes if it is a number",
+        )
     place = Objects(str(data)) if is_remote(data) else Path(context.project_path) / data
     if glob.has_magic(str(place)):
         raise DomainError(
