@@ -14,7 +14,7 @@ def context(data, tmp_path):
 
 @pytest.mark.parametrize("data", [5, None, ["data"], True])
 def test_what_is_no_path_is_told(data, tmp_path):
-    with pytest.raises(DomainError, match=r"`data` is .*, which is no path.*globals\.yml"):
+    with pytest.raises(DomainError, match="is no path"):
         data_place(context(data, tmp_path))
 
 
