@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.model.channels import DOES_NOTHING, largest
+from tire_pipeline.mismatch.unnamed_physics.found import FADE
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable, evaluate, number, parse
 from tire_pipeline.mismatch.unnamed_physics.library import Factor
 
@@ -48,7 +49,7 @@ def way_through_play(factor: Factor, table: SymbolTable) -> tuple[str, tuple[flo
     """Return how far what goes through a play went to both sides, and where the play is known.
 
     Where a recording starts nobody knows at which end of its gap a joint is. It is known once what goes
-    through it has spanned the gap.
+    through it has spanned the gap. The range begins there, or where its fade ends at nothing spanned.
 
     Parameters
     ----------
@@ -67,4 +68,4 @@ def way_through_play(factor: Factor, table: SymbolTable) -> tuple[str, tuple[flo
     inside = factor.text[len(begins) : factor.text.index(", {}")]
     text = f"highest({inside}) + highest(-({inside}))"
     most = float(evaluate(parse(text), table)[-1])
-    return text, (min(2.0 * factor.value, most), most)
+    return text, (min(max(2.0 * factor.value, most * FADE / (1.0 + FADE)), most), most)

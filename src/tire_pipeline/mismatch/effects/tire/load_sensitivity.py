@@ -37,13 +37,13 @@ class LoadSensitivity(Effect):
     family = "scale"
     prior_source = (
         "PDX2, PDY2 and the curvature of the stiffness over load of published files: tenths; loads of test "
-        "plans: a third to 1.7 of the nominal load"
+        "plans: a third to 1.7 of the nominal one, and a fit is right at about their mean"
     )
     parameters = (
         Parameter("rate", "1", -1.5, 1.5, 0.01, prior=0.2),
         Parameter("stiffness", "1", -1.5, 1.5, 0.01, prior=0.3),
         Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy", prior=0.3),
-        Parameter("right_at", "1", 0.2, 3.0, 0.02, zero=1.0, form=True, further=True, prior=0.3),
+        Parameter("right_at", "1", 0.5, 1.7, 0.02, zero=1.0, form=True, further=True, prior=0.15),
         Parameter("power", "0 or 1", 0.0, 1.0, 0.1, form=True),
     )
     looks_like = {
