@@ -60,7 +60,7 @@ class OfModel(Protocol):
         """Whether the lateral force answers to camber."""
 
     def load_excess(self, load: Array, right_at: float = 1.0) -> Array:
-        """Return ``(Fz - Fz0) / Fz0``, faded outside of the loads that were explained."""
+        """Return ``Fz / Fz0 - right_at``, faded outside of the loads that were explained."""
 
 
 class OfSimulation(Protocol):
