@@ -12,6 +12,7 @@ import click
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish, three_digits
+from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.unit_definitions import DEGREE
 
 if TYPE_CHECKING:
@@ -166,9 +167,7 @@ def _replaced(model: TireModel) -> dict[str, float]:
 
 
 def _missing(missing: dict[str, float]) -> str:
-    names = list(missing)
-    more = f" and {len(names) - _NAMES_SHOWN} more" if len(names) > _NAMES_SHOWN else ""
-    return f"{', '.join(names[:_NAMES_SHOWN])}{more} (0 is used, or the value that changes nothing)"
+    return f"{first_of(list(missing), _NAMES_SHOWN)} (0 is used, or the value that changes nothing)"
 
 
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:

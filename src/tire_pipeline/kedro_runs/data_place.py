@@ -29,7 +29,7 @@ def data_place(context: Any) -> Path | Objects:
             where="conf/*/globals.yml",
             todo="write a folder or an address, in quotes if it is a number",
         )
-    place = Objects(str(data)) if is_remote(data) else Path(context.project_path) / data
+    place = Objects(data) if is_remote(data) else Path(context.project_path) / data
     if glob.has_magic(str(place)):
         raise DomainError(
             "the path of the data folder holds *, ? or [, which reads as a pattern for other names",

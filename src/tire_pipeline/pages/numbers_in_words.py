@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 _NO_FIGURE = 1e12
 """No quantity of a tire is so large: only there a power of ten is read more easily than digits."""
@@ -36,6 +37,28 @@ def in_digits(value: float, most: int = 3) -> str:
         return f"{value:.{most}g}"
     text = f"{value:,.0f}" if abs(value) >= 10**most - 0.5 else f"{value:,.{most}g}"
     return "0" if text == "-0" else text
+
+
+def first_of(names: Sequence[str], most: int) -> str:
+    """Return names as a list; of many the first, and how many more there are.
+
+    Parameters
+    ----------
+    names : sequence of str
+    most : int
+        So many are named.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> first_of(["SA", "FY"], 2), first_of(["SA", "FY", "FZ", "IA"], 2)
+    ('SA, FY', 'SA, FY and 2 more')
+    """
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more:,} more" if more > 0 else "")
 
 
 def how_many(count: int, one: str, several: str = "") -> str:

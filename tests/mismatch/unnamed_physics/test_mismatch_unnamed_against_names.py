@@ -42,9 +42,10 @@ def test_columns_that_do_nothing_are_as_likely_as_no_effect(softer):
 
 
 def test_a_term_of_an_equation_has_the_size_of_the_largest_force(equation):
-    for forces in equation.forces():
-        sizes = [np.sqrt(np.mean(x**2)) / equation.columns.problem.largest[o] for o, x in forces.items()]
-        assert max(sizes) == pytest.approx(1.0)
+    problem = equation.columns.problem
+    forces = equation.forces(problem.outputs)
+    sizes = [np.sqrt(np.mean(x**2, axis=0)) / problem.largest[o] for o, x in forces.items()]
+    assert np.max(sizes, axis=0) == pytest.approx(np.ones(len(equation.terms)))
 
 
 def test_an_equation_is_no_likelier_than_the_true_name_whose_form_it_resembles(softer, equation):
@@ -54,9 +55,7 @@ def test_an_equation_is_no_likelier_than_the_true_name_whose_form_it_resembles(s
 
 def test_an_equation_is_likelier_than_names_of_less_evidence_by_its_price(softer, equation):
     """The names' weight at which it turns is the equation's evidence without what its terms cost."""
-    forces = equation.forces()
-    columns = {o: np.column_stack([f[o] for f in forces]) for o in softer.analysis.data.outputs}
-    evidence = softer.sets.log_evidence_of(columns, 0.05)
+    evidence = softer.sets.log_evidence_of(equation.forces(softer.analysis.data.outputs), 0.05)
     for away, likelier in ((-0.01, True), (0.01, False)):
         answer = replace(softer.answer, log_weight=evidence - equation.price + away)
         assert NamesToBeat({}, softer.sets, answer).less_likely_than([equation]) is likelier

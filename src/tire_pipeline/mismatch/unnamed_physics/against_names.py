@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,15 +31,11 @@ class Acting:
         """Minus the log prior of the terms: which of the library, how long, how many drivers."""
         return self.model.evidence - self.model.score
 
-    def forces(self) -> list[dict[str, Array]]:
-        """Return the force of each term, N, of the size of the largest force, by output."""
-        out, problem = [], self.columns.problem
-        for term in self.terms:
-            every = self.columns.of(term) or {}
-            acting = {o: every[o] for o in self.outputs if o in every}
-            size = max((float(np.sqrt(np.mean(x**2))) / problem.largest[o] for o, x in acting.items()))
-            out.append({o: x / size for o, x in acting.items()} if size > 0.0 else {})
-        return out
+    def forces(self, every: Iterable[str]) -> dict[str, Array]:
+        """Return the forces of the terms, N, of the size of the largest force, for each of some outputs."""
+        live, columns, _ = self.columns.scaled(self.terms, self.outputs)
+        none = np.zeros((self.columns.problem.table.size, len(live)))
+        return {o: columns.get(o, none) for o in every}
 
 
 @dataclass(frozen=True)
@@ -67,10 +63,8 @@ class NamesToBeat:
         """
         if self.sets is None or self.answer is None:
             return True
-        forces = [force for part in equation for force in part.forces()]
-        none = np.zeros(self.sets.products.data.size)
-        columns = {
-            o: np.column_stack([force.get(o, none) for force in forces]) for o in self.sets.products.largest
-        }
+        outputs = self.sets.products.data.outputs
+        forces = [part.forces(outputs) for part in equation]
+        columns = {o: np.hstack([each[o] for each in forces]) for o in outputs}
         evidence = self.sets.log_evidence_of(columns, PRIOR_SIZE)
         return evidence - sum(part.price for part in equation) > self.answer.log_weight

@@ -177,7 +177,7 @@ class Columns:
         """Return the terms that do something, and all their sums over all rows."""
         wanted = list(dict.fromkeys(terms))
         new = [t for t in wanted if t not in self._full]
-        there, scaled, sizes = self._scaled(new)
+        there, scaled, sizes = self.scaled(new)
         fresh: dict[Term, _Full] = {}
         for o, columns in scaled.items():
             white = self.problem.whiten(o, columns)
@@ -248,27 +248,44 @@ class Columns:
             self._factors[key] = (lower, 2.0 * float(np.log(np.diag(lower)).sum()))
         return self._factors[key]
 
-    def _scaled(self, terms: Sequence[Term]) -> tuple[list[Term], dict[str, Array], list[float]]:
-        """Columns of the terms that do something, each of the size of the largest force, and their sizes."""
-        p = self.problem
+    def scaled(
+        self, terms: Sequence[Term], outputs: Sequence[str] = ()
+    ) -> tuple[list[Term], dict[str, Array], list[float]]:
+        """Return the terms that do something, and their columns in the size of the largest force.
+
+        Parameters
+        ----------
+        terms : sequence of Term
+        outputs : sequence of str
+            Forces that they act on; all if left out.
+
+        Returns
+        -------
+        list of Term
+        dict of ndarray, shape (n, k)
+            Output -> columns, N.
+        list of float
+            Root mean square of each term over the largest force, before it was scaled.
+        """
+        p, outputs = self.problem, outputs or self.problem.outputs
         live, columns, sizes = [], [], []
         for term in terms:
             column = self.of(term)
             if column is None:
                 continue
-            size = max(float(np.sqrt(np.mean(column[o] ** 2))) / p.largest[o] for o in p.outputs)
+            size = max(float(np.sqrt(np.mean(column[o] ** 2))) / p.largest[o] for o in outputs)
             if np.isfinite(size) and size > _LEAST_SIZE:
                 live.append(term)
                 sizes.append(size)
                 columns.append({o: c / size for o, c in column.items()})
         empty = np.zeros((p.table.size, 0))
-        stacked = {o: np.column_stack([c[o] for c in columns]) if columns else empty for o in p.outputs}
+        stacked = {o: np.column_stack([c[o] for c in columns]) if columns else empty for o in outputs}
         return live, stacked, sizes
 
     def _singly(self, terms: Sequence[Term], every: int) -> tuple[list[Term], Products]:
         """Sums of terms one by one, over every so many rows."""
         p, rows = self.problem, self._rows(every)
-        live, scaled, sizes = self._scaled(terms)
+        live, scaled, sizes = self.scaled(terms)
         m = len(live)
         ee, er, rr = np.zeros((FOLDS, m)), np.zeros((FOLDS, m)), np.zeros(FOLDS)
         ne, nr = {}, {}

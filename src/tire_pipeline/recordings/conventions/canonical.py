@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError, did_you_mean
+from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
@@ -84,9 +85,7 @@ def canonical_frame(
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
     if strange:
-        more = len(strange) - _STRANGE_NAMED
-        listed = ", ".join(strange[:_STRANGE_NAMED]) + (f" and {more:,} more" if more > 0 else "")
-        notes.append(f"not used, because their names are not known: {listed}")
+        notes.append(f"not used, because their names are not known: {first_of(strange, _STRANGE_NAMED)}")
     wheels = of_a_wheel(strange)
     if not any(name in _SI for name in columns):
         raise RecordingError(

@@ -27,14 +27,13 @@ _STRENGTHS = (1.0, 0.3, 0.1, 0.03, 0.01)
 """Strengths of the pull towards typical values, strongest first."""
 _HELD_STRENGTHS = (1000.0, 100.0, 10.0, 3.0)
 """The same on what the ranges cannot determine."""
-_EASED_PULLS = (
-    *((hold, _STRENGTHS[0]) for hold in _HELD_STRENGTHS),
-    *((share, share) for share in _STRENGTHS),
-)
+_EVEN_PULLS = tuple((share, share) for share in _STRENGTHS)
+"""On all alike."""
+_EASED_PULLS = (*((hold, _STRENGTHS[0]) for hold in _HELD_STRENGTHS), *_EVEN_PULLS)
 """Both, as they are eased from the strongest."""
 _HELD_PULLS = (
     *((hold, share) for hold in (*_HELD_STRENGTHS, 1.0) for share in _STRENGTHS),
-    *_EASED_PULLS[-len(_STRENGTHS) + 1 :],
+    *_EVEN_PULLS[1:],
 )
 """Both, as they are tried: all else leaves typical values before what the ranges cannot determine does."""
 _LEAST_PULL = 1e-6
@@ -124,23 +123,22 @@ def most_typical(
         width = ROBUST_WIDTH * typical.FORMULA_ERROR * largest
         drawn = problem.drawn(typical.FORMULA_ERROR * largest)
         return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
-    eases, pulls = (
-        [
-            np.where(held, hold, share)
-            for hold, share in (each if held.any() else _EASED_PULLS[-len(_STRENGTHS) :])
-        ]
-        for each in (_EASED_PULLS, _HELD_PULLS)
-    )
+
+    def of_each(pulls: Sequence[tuple[float, float]]) -> list[np.ndarray]:
+        return [np.where(held, hold, share) for hold, share in (pulls if held.any() else _EVEN_PULLS)]
+
+    pulls = of_each(_HELD_PULLS)
     drawn_by = _Drawn(problem, bounds, best, loss)
     thin = problem.thinned(_SEARCH_ROUNDS[1][0])
     eased = [problem.pull.centre]
-    for pull in eases:
+    for pull in of_each(_EASED_PULLS):
         eased.append(drawn_by.solved(thin, pull, eased[-1], 1e-5))
     found = [best, *(values for values in others if problem.left(values) <= most)]
     one_sided = bool(held[np.isin(problem.names, [*(ONE_SIDED_SLIP | ONE_SIDED_RATIO) - LOAD])].any())
     owns = (best, drawn_by.solved(problem, pulls[-1], eased[-1], 1e-7))
-    for each in (drawn_by, _Drawn(problem, bounds, best, "linear")):
-        pulled = [values for own in owns for values in each.strongest(thin, pulls, own, most)]
+    for each in dict.fromkeys((loss, "linear")):
+        searched = drawn_by if each == loss else _Drawn(problem, bounds, best, each)
+        pulled = [values for own in owns for values in searched.strongest(thin, pulls, own, most)]
         found += pulled
         if pulled and not one_sided:
             break

@@ -69,7 +69,7 @@ class LoadSensitivity(Effect):
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
-        right_at = _right_at(p)
+        right_at = p["right_at"]
         excess = data.nominal.load_excess(state.normal_load, right_at)
 
         def log_factor(name: str) -> Array:
@@ -89,14 +89,9 @@ class LoadSensitivity(Effect):
         out: dict[str, float] = {}
         for axis in "XY":
             peak, fall = c.get(f"PD{axis}1", 1.0), c.get(f"PD{axis}2", 0.0)
-            level = 1.0 + p["rate"] * (1.0 - _right_at(p))
+            level = 1.0 + p["rate"] * (1.0 - p["right_at"])
             out |= {f"PD{axis}1": peak * level, f"PD{axis}2": fall * level + peak * p["rate"]}
         return out
-
-
-def _right_at(p: Parameters) -> float:
-    """Load over the nominal one at which the model is right; files of before 2026-11-30 state none."""
-    return p.get("right_at", 1.0)
 
 
 def _far_outside(data: Context) -> bool:

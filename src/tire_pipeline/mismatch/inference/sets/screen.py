@@ -21,6 +21,7 @@ Names = tuple[str, ...]
 EFFECTS_KEPT = 12
 """Effects that go on to be fitted."""
 PAIRS = 2 * EFFECTS_KEPT
+"""Pairs of these that are fitted: to fit all 66 takes time, and the others have hardly any evidence."""
 _ROUNDS_OF_COUNTING = 8
 
 
