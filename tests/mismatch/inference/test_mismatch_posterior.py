@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.inference.learn_sizes import Tuning, learn, log_scor
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior
+from tire_pipeline.mismatch.inference.sets import enumerate as enumerate_module
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets, screened_recording
 from tire_pipeline.mismatch.inference.sets.fitting import fitted
@@ -170,6 +171,22 @@ def test_the_fit_finds_the_friction(cases):
     case = cases[("friction_scale",)]
     changes = next(each.changes for each in case.sets if each.names == ("friction_scale",))
     assert changes[0][1]["friction"] == pytest.approx(-0.3, abs=0.01)
+
+
+def test_what_looks_like_the_likeliest_is_fitted_even_if_the_screen_leaves_it_out(analyses, monkeypatch):
+    """A large compliance was lost: the screen sees small sizes, at which it has another shape."""
+    screened = enumerate_module.screen
+
+    def narrow(*given):
+        found = screened(*given)
+        forms = {name: each for name, each in found.forms.items() if name != "inflation_pressure"}
+        return replace(found, forms=forms, kept=("friction_scale",), beside={})
+
+    monkeypatch.setattr(enumerate_module, "screen", narrow)
+    fitted_sets = enumerate_sets(analyses[("friction_scale",)], learnt()).case.sets
+    names = {each.names for each in fitted_sets}
+    assert ("force_gain",) in names  # of one family
+    assert ("force_offset",) not in names
 
 
 @pytest.mark.parametrize("away", [-5.0, 5.0])

@@ -85,13 +85,10 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     looked = screened_recording(analysis, sizes)
     products, found = looked.products, looked.found
     likelihood = looked.guess.counting(found.independent)
-    fits = _Fits(products, likelihood, found.beside)
+    fits = _Fits(products, likelihood, found)
     fits.take((), products.of_set([], []))
     singles, pairs = sets_to_fit(found, likelihood.unknown.expected, beside)
-    for name in singles:
-        for form in found.forms[name]:
-            fits.single(form)
-    for names in pairs:
+    for names in [*((name,) for name in singles), *pairs]:
         fits.fit(names)
     for names in _triples(fits, found):
         fits.fit(names)
@@ -107,17 +104,11 @@ class _Fits:
     ----------
     products : RecordingProducts
     likelihood : Likelihood
-    beside : mapping
-        Pair of names -> the forms of the two that are likeliest together.
+    found : Screened
     """
 
-    def __init__(
-        self,
-        products: RecordingProducts,
-        likelihood: Likelihood,
-        beside: Mapping[Names, tuple[Variant, Variant]],
-    ) -> None:
-        self.products, self.likelihood, self.beside = products, likelihood, beside
+    def __init__(self, products: RecordingProducts, likelihood: Likelihood, found: Screened) -> None:
+        self.products, self.likelihood, self.found = products, likelihood, found
         self.singles: list[tuple[Variant, OfSet]] = []
         self.sets: dict[Names, OfSet] = {}
         self.evidence: dict[Names, float] = {}
@@ -128,26 +119,31 @@ class _Fits:
         if names not in self.sets or evidence > self.evidence[names]:
             self.sets[names], self.evidence[names] = each, evidence
 
-    def single(self, form: Variant) -> None:
-        """Fit one form of an effect by itself."""
-        found = fitted(self.products, self.likelihood, [form])
-        self.singles.append((form, found))
-        self.take((form.name,), found)
-
     def fit(self, names: Names) -> None:
-        """Fit a set of several effects, if it was not, from where their own fits have ended.
+        """Fit a set of effects, if it was not: one in all of its forms, several from where these have ended.
 
-        Of a pair, in the forms that are likeliest beside each other, too: a form that explains most by itself
+        A pair in the forms that are likeliest beside each other, too: a form that explains most by itself
         takes up a part of what the other effect does.
         """
         if names in self.sets:
             return
+        if len(names) == 1:
+            self._fit_forms(names)
+            return
+        for name in names:
+            self.fit((name,))
         ends = [self.sets[(name,)] for name in names]
         self._take_from(names, ends)
-        forms = self.beside.get(names, ())
+        forms = self.found.beside.get(names, ())
         others = [found for form in forms for own, found in self.singles if own is form]
         if len(others) == len(names) and any(a is not b for a, b in zip(ends, others, strict=True)):
             self._take_from(names, others)
+
+    def _fit_forms(self, names: Names) -> None:
+        for form in self.found.forms[names[0]]:
+            fit = fitted(self.products, self.likelihood, [form])
+            self.singles.append((form, fit))
+            self.take(names, fit)
 
     def _take_from(self, names: Names, ends: Sequence[OfSet]) -> None:
         begin = [
@@ -228,15 +224,16 @@ def _triples(fits: _Fits, found: Screened) -> list[Names]:
 
 
 def _swapped(fits: _Fits, found: Screened) -> list[Names]:
-    """Return the likeliest pair and triple with a like effect in place of one of them.
+    """Return the likeliest single effect, pair and triple with a like effect in place of one of them.
 
-    Without these an effect is not told from what looks like it beside two others, but taken for it.
+    Without these an effect is not told from what looks like it, but taken for it. The screen may have left
+    out the like effect: it sees small sizes, at which a large compliance has another shape.
     """
     steady = fits.likelihood.unknown.steady
     return [
         tuple(sorted((*(set(best) - {name}), other)))
-        for best in (fits.likeliest(2), fits.likeliest(3))
+        for best in (fits.likeliest(1), fits.likeliest(2), fits.likeliest(3))
         for name in best
-        for other in found.kept
+        for other in found.forms
         if other not in best and look_alike(name, other, steady)
     ]
