@@ -133,7 +133,7 @@ def test_a_run_goes_on_where_it_was_and_its_table_is_committed(tmp_path, monkeyp
     for name in trial.ON_RESIDUAL:
         row |= {f"removed_{name}": 0.1, f"worse_{name}": False}
     monkeypatch.setattr(trial, "run", lambda half, number: asked.append(number) or {"case": number, **row})
-    page = tmp_path / "docs" / "explanation" / "concealed_results.md"
+    page = tmp_path / "docs" / "history" / "proofs.md"
     page.parent.mkdir(parents=True)
     (tmp_path / "benchmarks" / "results").mkdir(parents=True)
     page.write_text("a\n<!-- unnamed tuning, from concealed.unnamed -->\nold\n<!-- end -->\nb\n", "utf-8")

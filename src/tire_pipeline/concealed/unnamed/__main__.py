@@ -3,8 +3,8 @@
 python -m tire_pipeline.concealed.unnamed tuning --cases 24
 python -m tire_pipeline.concealed.unnamed sealed --cases 400 --processes 2 --write . --commit
 
-With --write the table goes into benchmarks/results and its scores into docs/explanation/concealed_results.md;
-with --commit both are committed.
+With --write the table goes into benchmarks/results and its scores into a page of the documentation; with
+--commit both are committed.
 """
 
 from __future__ import annotations
@@ -33,6 +33,8 @@ from tire_pipeline.tasks import one_thread
 SEEDS = {"tuning": 20261124, "sealed": 20261262}
 """Each sealed run has its own, drawn before it: 20261129 was that of 2026-11-24, 10296229 that of 11-27, and
 20261260 that of 11-28."""
+PAGE_OF_HALF = {"tuning": "docs/history/proofs.md", "sealed": "docs/explanation/concealed_results.md"}
+"""Which page takes the scores of each half."""
 ROWS = 4000
 ALONE, TWO, BESIDE = "alone", "two", "beside a named one"
 PLAN = (ALONE, TWO, ALONE, BESIDE)
@@ -149,7 +151,7 @@ def _git(project: Path, *words: str) -> None:
 
 def write(half: str, text: str, project: Path) -> list[str]:
     """Put the table into ``benchmarks/results`` and its scores between two marks of the page; return both."""
-    written = [f"benchmarks/results/unnamed_{half}.md", "docs/explanation/concealed_results.md"]
+    written = [f"benchmarks/results/unnamed_{half}.md", PAGE_OF_HALF[half]]
     result, page = (project / name for name in written)
     result.write_text(text, encoding="utf-8")
     mark, end = f"<!-- unnamed {half}, from concealed.unnamed -->", "<!-- end -->"
