@@ -50,10 +50,10 @@ FOUND, SIZES, TABLE = (
     RESULTS / name for name in ("visible_found.csv", "visible_sizes.csv", "visible_sizes.txt")
 )
 SEEDS = {
-    "simulated": range(74_400, 74_412),
-    "calspan": range(74_500, 74_504),
-    "dart": range(74_600, 74_603),
-    "tydex": range(74_700, 74_702),
+    "simulated": range(75_400, 75_412),
+    "calspan": range(75_500, 75_504),
+    "dart": range(75_600, 75_603),
+    "tydex": range(75_700, 75_702),
 }
 ROWS = (1000, 5000)
 """Of a simulated recording: an explanation of a longer one takes ten times as long."""
