@@ -2,7 +2,7 @@
 
 python benchmarks/visible_sizes.py --put-in --minutes 60   # effects of that size, found or not; resumes
 python benchmarks/visible_sizes.py --sizes                 # sizes beside a likelihood-ratio test; resumes
-python benchmarks/visible_sizes.py --table                 # rates of both, written beside the rows
+python benchmarks/visible_sizes.py --table                 # rates of both, beside the rows and on a page
 
 Recordings in which nothing is missing: of the rig simulator (fresh seeds), and real ones (development
 sweeps, ``concealed/real``) with the model fitted to the recording. The effects of a recording are taken in an
@@ -33,6 +33,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from doc_tables import markdown, write_between
 
 import tire_pipeline.mismatch
 from tire_pipeline.concealed import Case, CaseSettings, make_case
@@ -48,6 +49,10 @@ RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
 RESULTS = Path(__file__).parent / "results"
 FOUND, SIZES, TABLE = (
     RESULTS / name for name in ("visible_found.csv", "visible_sizes.csv", "visible_sizes.txt")
+)
+PAGE, MARK = (
+    Path(__file__).resolve().parents[1] / "docs" / "explanation" / "concealed_results.md",
+    "<!-- from visible_sizes.py -->",
 )
 SEEDS = {
     "simulated": range(75_400, 75_412),
@@ -286,11 +291,49 @@ def size_rates() -> list[str]:
     return out
 
 
+def shown_on_page() -> str:
+    """Return the rates by source, as a table, and which engines they are of."""
+    found, sizes = newest(FOUND), newest(SIZES)
+    both = np.isfinite(sizes["seen"]) & np.isfinite(sizes["told"])
+    ratio = (sizes["seen"] / sizes["told"])[both]
+    held = (sizes["value"].abs() <= Z * sizes["error"]).astype(float)
+    head = [
+        "source",
+        "put in",
+        "among the names",
+        "first",
+        "size over that of the test, median",
+        "above 3 times",
+        "intervals that hold the truth",
+    ]
+    rows = []
+    for source in (*SEEDS, None):
+        put = found if source is None else found[found["source"] == source]
+        over = ratio if source is None else ratio[sizes["source"] == source]
+        simulated = sizes["source"].eq("simulated") & np.isfinite(sizes["error"])
+        inside = f"{held[simulated].mean():.3f} of {simulated.sum()}" if source == "simulated" else ""
+        rows.append(
+            [
+                source or "all",
+                str(len(put)),
+                f"{put['found'].mean():.2f}",
+                f"{put['first'].mean():.2f}",
+                f"{over.median():.2f}",
+                f"{(over > 3.0).sum()} of {len(over)}",
+                inside,
+            ]
+        )
+    made = f"Put in: {about(found)}.\n\nSizes and intervals: {about(sizes)}."
+    return f"{markdown(head, rows)}\n\n{made}"
+
+
 def table() -> None:
     """Print and write the rates of the newest engine's rows."""
     parts = [rates() for path, rates in ((FOUND, found_rates), (SIZES, size_rates)) if path.exists()]
     text = "\n\n\n".join("\n".join(part) for part in parts) + "\n"
     TABLE.write_text(text, encoding="utf-8")
+    if len(parts) > 1:
+        write_between(PAGE, MARK, shown_on_page())
     print(text)
 
 
