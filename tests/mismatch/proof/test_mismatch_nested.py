@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.measured import OutputFit
-from tire_pipeline.mismatch.proof.nested import REPEATS, ByFold, RepeatedChoice
+from tire_pipeline.mismatch.proof.nested import FOLDS, ByFold, RepeatedChoice
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
@@ -36,7 +36,7 @@ def test_a_fit_that_ended_off_its_optimum_is_not_said_to_be_there(softer):
     ((name, values),) = best.changes
     elsewhere = [(name, {key: 0.5 * (1.0 + value) for key, value in values.items()})]
     off = softer.sets.products.of_set(elsewhere, best.free)
-    by_fold = ByFold(softer.sets, off, softer.analysis.block % REPEATS)
+    by_fold = ByFold(softer.sets, off, softer.analysis.block % FOLDS)
     there = rms(residual(softer.analysis.data, elsewhere))
     assert there > 1.5 * rms(residual(softer.analysis.data, best.changes))
     assert rms(by_fold.predicted(softer.sets.likelihood, off)) == pytest.approx(there)
@@ -44,7 +44,7 @@ def test_a_fit_that_ended_off_its_optimum_is_not_said_to_be_there(softer):
 
 def test_what_is_withheld_predicts_nothing(softer):
     found = RepeatedChoice(softer.sets, softer.analysis.block, LEVEL).unseen(set(catalogue()))
-    assert found.chosen == ((),) * REPEATS
+    assert found.chosen == ((),) * FOLDS
     assert rms(found.left) == rms(residual(softer.analysis.data, []))
 
 

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordin
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice
+from tire_pipeline.mismatch.proof.nested import FOLDS, RepeatedChoice
 from tire_pipeline.mismatch.proof.never_worse import guarded
 
 OTHER = 100
@@ -146,14 +146,14 @@ def a_clear_cause_is_chosen_without_any_fold_and_leaves_as_little(tire, record, 
     softer = Explainer().weigh(tire, record(seed, friction=0.9))
     found = RepeatedChoice(softer.sets, softer.analysis.block, LEVEL).unseen()
     left = rms(each_left_out(softer.analysis, softer.analysis.fit)["fy"])
-    return found.chosen == (("friction_scale",),) * REPEATS and abs(rms(found.left["fy"]) / left - 1.0) < 0.05
+    return found.chosen == (("friction_scale",),) * FOLDS and abs(rms(found.left["fy"]) / left - 1.0) < 0.05
 
 
 def a_choice_that_rests_on_one_fold_removes_nothing_there(tire, record, seed):
     """An offset of the force in every fifth sweep alone: the others never show it."""
     plain = Explainer().weigh(tire, record(seed))
     data, block = plain.analysis.data, plain.analysis.block
-    there = block % REPEATS == 2
+    there = block % FOLDS == 2
     data.recorded["fy"][there] += 400.0
     found = RepeatedChoice(plain.sets, block, LEVEL).unseen()
     before = residual(data, [])["fy"]

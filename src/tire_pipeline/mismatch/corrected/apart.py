@@ -14,10 +14,9 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
-_SLIP_STEP = 1e-3
-"""Change of a slip by which a derivative is taken, rad or 1."""
 
 
 @dataclass(frozen=True)
@@ -69,9 +68,9 @@ def apart(corrected: CorrectedModel, joined: pd.DataFrame) -> list[Apart]:
             continue
         force = predicted[output] * factor.get(output, 1.0)
         left = (joined[output] * factor.get(output, 1.0) - force).to_numpy(dtype=float)
-        turn = _SLIP_STEP / factor.get(slip, 1.0)
+        turn = DIFFERENCE / factor.get(slip, 1.0)
         turned = model.predict(joined.assign(**{slip: joined[slip] + turn}))[output] * factor.get(output, 1.0)
-        columns = np.column_stack([force, (turned - force) / _SLIP_STEP, np.ones(left.size)])
+        columns = np.column_stack([force, (turned - force) / DIFFERENCE, np.ones(left.size)])
         whole = np.isfinite(left) & np.isfinite(columns).all(axis=1)
         rows = {}
         for part in joined.attrs["joined"]:

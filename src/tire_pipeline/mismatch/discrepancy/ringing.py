@@ -83,7 +83,7 @@ def rung(force: Array, frequency: float, step: float, damping: float) -> Array:
     return np.column_stack([scipy.signal.lfilter(above, below, since) for above, below in filters])
 
 
-@lru_cache(maxsize=256)
+@lru_cache
 def _filters(frequency: float, step: float, damping: float) -> list[tuple[Array, Array]]:
     """Return numerator and denominator of what the mass adds, and of what the damper adds."""
     w = 2.0 * np.pi * frequency

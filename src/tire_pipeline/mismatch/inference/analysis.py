@@ -18,6 +18,8 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
+_LAGS_OF_COLOUR = 12
+"""Samples over which a whitened residual may be alike."""
 
 
 @dataclass(frozen=True)
@@ -149,11 +151,12 @@ def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
     for x in left.values():
         colour = 1.0
         if in_time:
-            lags = [float(np.mean(x[k:] * x[:-k])) / max(float(np.mean(x**2)), 1e-12) for k in range(1, 13)]
-            for value in lags:
+            power = max(float(np.mean(x**2)), 1e-12)
+            for k in range(1, _LAGS_OF_COLOUR + 1):
+                value = float(np.mean(x[k:] * x[:-k])) / power
                 if value * np.sqrt(x.size) < 1.0:  # no more than white noise has
                     break
                 colour += 2.0 * value
         total += max(float(np.mean(x**2)), 0.5) * colour
         weight += 1.0
-    return float(np.clip(total / weight, 1.0, 25.0))
+    return float(np.clip(total / weight, 1.0, 1.0 + 2.0 * _LAGS_OF_COLOUR))

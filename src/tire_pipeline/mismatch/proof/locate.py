@@ -118,7 +118,7 @@ def _axes(
     sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])
     size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
     statistics = np.abs(signs @ sums.T) / size[None, :]
-    enough = np.array([(s != 0.0).sum() >= 5 for s in sums])
+    enough = np.array([0.5 ** np.count_nonzero(s) < CHANCE for s in sums])  # else no sign test says anything
     statistics[:, ~enough] = 0.0
     top = statistics.max(axis=1)
     found = []

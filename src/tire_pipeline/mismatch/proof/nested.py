@@ -21,7 +21,8 @@ from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 Names = tuple[str, ...]
-REPEATS = 5
+FOLDS = 5
+"""Parts of the sweeps, each of which is predicted by what the others teach."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class RepeatedChoice:
 
     def __init__(self, sets: Enumerated, block: Array, level: float) -> None:
         self._data = sets.products.data
-        folds, self._fold = np.unique(block % REPEATS, return_inverse=True)
+        folds, self._fold = np.unique(block % FOLDS, return_inverse=True)
         self._every: list[ByFold] = []
         self._answers: list[tuple[Likelihood, OfCase, Names]] = []
         if folds.size < 2:

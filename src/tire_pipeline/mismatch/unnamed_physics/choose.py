@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.proof.nested import FOLDS
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
     Model,
@@ -23,7 +24,7 @@ from tire_pipeline.mismatch.unnamed_physics.library import (
     products,
     single_terms,
 )
-from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns, Products, Reduced
+from tire_pipeline.mismatch.unnamed_physics.products import Columns, Products, Reduced
 
 Array = np.ndarray
 EVERYTHING = np.ones(FOLDS, bool)

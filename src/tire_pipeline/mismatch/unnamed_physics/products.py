@@ -15,12 +15,12 @@ import scipy
 
 from tire_pipeline.mismatch.inference.analysis import inflation_of
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS
+from tire_pipeline.mismatch.proof.nested import FOLDS
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import PRIOR_SIZE, Unexplained
 
 Array = np.ndarray
-FOLDS = 5
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
 _SINGULAR = 1e-12

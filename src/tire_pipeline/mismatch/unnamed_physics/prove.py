@@ -12,22 +12,23 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.model.channels import CHANCE
+from tire_pipeline.mismatch.model.channels import CHANCE, DOES_NOTHING
+from tire_pipeline.mismatch.proof.nested import FOLDS
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problems.unexplained import Unexplained
-from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
 
 Array = np.ndarray
 _LEAST_GONE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_LEVEL_OF_PROOF = CHANCE / 9.0
+_LEVEL_OF_PROOF = CHANCE / (3 * MOST_TERMS)
 """Of the test over sweeps, of which a force has nine: two views of all forces and one of it alone, each with
 one term, two and three."""
 _SIGNS_DRAWN = round(CHANCE**-3)
 """Of signs: with so many a chance at the level of proof is known to a fifth of itself."""
-_NEAR_MOST = 0.95
+_NEAR_MOST = 1.0 - CHANCE
 
 
 @dataclass(frozen=True)
@@ -211,7 +212,7 @@ def ceiling(columns: Columns, way_terms: list[Term]) -> dict[str, Array]:
         design = design / max(float(np.sqrt(np.mean(design**2))), 1e-12)
         for fold in range(FOLDS):
             seen = columns.folds != fold
-            a = design[seen].T @ design[seen] + 1e-3 * seen.sum() * np.eye(design.shape[1])
+            a = design[seen].T @ design[seen] + DOES_NOTHING * seen.sum() * np.eye(design.shape[1])
             c = np.linalg.solve(a, design[seen].T @ problem.rest[o][seen])
             out[o][~seen] = design[~seen] @ c
     return out

@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.inference.evidence.summed import summed
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.tails import log_correction, widening
+from tire_pipeline.mismatch.model.channels import DOES_NOTHING
 
 Array = np.ndarray
 MISFITS = (0.002, 0.006, 0.02)
@@ -35,8 +36,6 @@ BACKGROUNDS = (0.3, 1.0)
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
 _ROUNDS_OF_CLIMBING = 4
-_MODE_TOLERANCE = 1e-3
-"""Change of all coefficients, over their spread, below which a mode is reached."""
 _WIDER = 10.0
 """Times as wide as they are: from there priors with tails are tried, too. They can have a second mode, far
 out."""
@@ -306,7 +305,7 @@ class Likelihood:
                 power += float(reduced[-1, -1])
                 total += value + 0.5 * float(u @ reduced @ u)
             before, z = z, times * np.linalg.solve(inner, aim)
-            if np.max(np.abs(z - before), initial=0.0) < _MODE_TOLERANCE:
+            if np.max(np.abs(z - before), initial=0.0) < DOES_NOTHING:  # over their spreads
                 break
         value = total - 0.5 * (power - float(aim @ (z / times))) - 0.5 * float(np.linalg.slogdet(inner)[1])
         value += log_correction(z[has_tails], times[has_tails])
