@@ -64,7 +64,7 @@ def seen(make) -> dict[str, object]:
     effects = len(looked.found.forms)
     single = [names for names in right if len(names) == 1]
     chance = 1.0 - (1.0 - min(EFFECTS_KEPT / effects, 1.0)) ** len(single) if single else None
-    kept = bool(fitted & set(right))
+    kept = bool(fitted & set(right)) or in_place_of_another(analysis, right)
     mass = None if kept else mass_if_fitted(analysis, known.truth, right)
     return {
         "source": known.source,
@@ -73,6 +73,11 @@ def seen(make) -> dict[str, object]:
         "mass": mass,
         "chance": chance,
     }
+
+
+def in_place_of_another(analysis, right) -> bool:
+    """Return whether a right answer is fitted because it looks like what is likeliest."""
+    return not set(right).isdisjoint(each.names for each in enumerate_sets(analysis, learnt()).sets)
 
 
 def mass_if_fitted(analysis, truth, right) -> float:
