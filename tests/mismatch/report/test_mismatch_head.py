@@ -15,7 +15,6 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.cleaning import Cleaning
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
-from tire_pipeline.mismatch.report.headline.moment_words import on_moment
 from tire_pipeline.mismatch.report.headline.sentences import (
     head,
     on_question,
@@ -24,7 +23,6 @@ from tire_pipeline.mismatch.report.headline.sentences import (
 )
 from tire_pipeline.mismatch.report.remarks import on_moments
 from tire_pipeline.mismatch.report.report_page import certainty_of, percent
-from tire_pipeline.mismatch.report.unnamed_part import MomentError
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import NominalValues
 
@@ -272,23 +270,6 @@ def test_no_place_is_on_an_axis_that_merely_came_along(where, even):
     assert "t slip angle between 5.73 and" in told
     assert "temperature" not in told
     assert "41 s" not in told
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "mirrored", "told"),
-    [
-        (649.0, 1.1, 59.0, ""),
-        (42.0, 42.0, 2.0, "with the other sign it is off by 2"),
-        (30.0, 30.0, 59.0, "agree"),
-    ],
-)
-def test_no_sign_of_mz_is_asked_for_where_what_was_found_brings_it_right(before, after, mirrored, told):
-    """Degrees for radians: 649 N m became 1.1, and "check the sign: with the other sign it is off by 59"."""
-    moment = MomentError(before, after, mirrored, 90.0, 0.5)
-    said_of_it = on_moment(moment, {"mz": OutputFit(0.5, before, after, 0.9 * after, 1.1 * after)})
-    assert told in said_of_it
-    assert bool(told) == bool(said_of_it)
-    assert ("sign" in said_of_it) == (mirrored < after)
 
 
 TIMED = {"time": (0.0, 60.0), "pressure": (2e5, 3e5), "slip_ratio": (-0.2, 0.0), "slip_angle": (-0.1, 0.1)}

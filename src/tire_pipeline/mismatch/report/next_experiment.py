@@ -63,24 +63,24 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     model : CorrectedModel
         Of the recording, with nothing added.
     """
-    questions = _questions(answer)
-    if not questions:
+    open_names = _sets_that_are_open(answer)
+    if not open_names:
         return ""
     sweeps = list(_sweeps(analysis))
-    gains = np.array([[_gain(s, q.rivals, model, analysis) for q in questions] for s in sweeps])
+    gains = np.array([[_gain(s, q.rivals, model, analysis) for q in open_names] for s in sweeps])
     best = int(gains.sum(axis=1).argmax())
-    settled = [q for q, gain in zip(questions, gains[best], strict=True) if gain >= 0.5 * q.entropy]
+    settled = [q for q, gain in zip(open_names, gains[best], strict=True) if gain >= 0.5 * q.entropy]
     if settled:  # more than it leaves open
         what = ", and ".join(q.text for q in settled)
         return f"{what[:1].upper()}{what[1:]}, record {sweeps[best].text}."
     if answer.rivals:
         return ""
-    first = catalogue()[questions[0].names[0]]
+    first = catalogue()[open_names[0].names[0]]
     return f"{first.experiment[:1].upper()}{first.experiment[1:]}."
 
 
 @dataclass(frozen=True)
-class _Question:
+class _OpenNames:
     """What a sweep may answer: which of some explanations holds, each with its probability."""
 
     names: tuple[str, ...]
@@ -100,13 +100,13 @@ class _Question:
         return f"to separate {first} from {' and '.join(others)}"
 
 
-def _questions(answer: SetAnswer) -> list[_Question]:
+def _sets_that_are_open(answer: SetAnswer) -> list[_OpenNames]:
     """Which name of each set holds; which explanation does, where none stands out."""
     rivals = [(each.changes, answer.probabilities[each.names]) for each in answer.rivals]
     if rivals:
-        return [_Question((), rivals)] if len(rivals) > 1 else []
+        return [_OpenNames((), rivals)] if len(rivals) > 1 else []
     return [
-        _Question(group, [(answer.single(name), sure / len(group)) for name in group])
+        _OpenNames(group, [(answer.single(name), sure / len(group)) for name in group])
         for group, sure in answer.sets
         if len(group) > 1
     ]
