@@ -205,7 +205,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     asked = [in_two_units(recording), unusable]
     if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
-        axes = open_axes(tire, arrays, time, findings, against)
+        axes = open_axes(tire, arrays, time, findings, against, recording.attrs.get("assumed", ()))
         asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
