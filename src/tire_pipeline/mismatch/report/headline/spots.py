@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.report.words import ends, newtons, place
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
 
-_HALF = 0.5
+MORE_THAN_HALF = 0.5
 _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
@@ -37,7 +37,7 @@ def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
         return ""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
-    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > MORE_THAN_HALF * (last - first):
         return ""
     return "between " + ", ".join("{} and {} s".format(*ends("time", a, b)) for a, b in effect.when)
 
@@ -128,7 +128,7 @@ def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
         for axis, (low, high) in effect.where.items()
         if axis in depends_on and axis in ranges and ranges[axis][1] > ranges[axis][0]
     }
-    narrow = [axis for axis, part in parts.items() if part < _HALF and part == min(parts.values())]
+    narrow = [axis for axis, part in parts.items() if part < MORE_THAN_HALF and part == min(parts.values())]
     return (["time"] if stretches_of(effect, ranges) else []) + narrow[:1]
 
 
@@ -140,7 +140,7 @@ def _to_both_sides(
     A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
     """
     main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
-    if main is None or not main.share > _HALF or main.output not in fit:
+    if main is None or not main.share > MORE_THAN_HALF or main.output not in fit:
         return ""
     means = [abs(f.mean) for f in located if f.output == main.output]
     spots = _where_it_is(main, ranges)
