@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
@@ -317,7 +317,7 @@ def _check_together(arrays: Mapping[str, Array]) -> None:
 def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
     """Put straight lines over holes of up to three samples, so that the time base stays even."""
     filled = np.zeros(arrays["normal_load"].size, bool)
-    for name in (*INPUT_CHANNELS, *TANGENTIAL_FORCES):
+    for name in (*INPUT_CHANNELS, *FORCE_CHANNELS):
         if name not in arrays:
             continue
         x = arrays[name]
