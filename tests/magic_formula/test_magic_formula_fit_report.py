@@ -71,6 +71,18 @@ def test_the_channel_in_another_unit_is_named(change, said):
 
 
 @pytest.mark.slow
+def test_a_moment_with_an_arm_longer_than_a_wheel_is_of_another_unit():
+    """Forces in kN labelled N: the fit of Fy was as good as ever, and Mz "something that is not steady"."""
+    table = points()
+    table = table.assign(fy=1e-3 * table["fy"], normal_load=1e-3 * table["normal_load"]).drop(
+        columns="pressure"
+    )
+    mz = -0.03 * 1e3 * table["fy"] * np.exp(-np.abs(table["slip_angle"]) / 0.06)
+    with pytest.warns(PoorFitWarning, match="arm of .* m over the forces, longer than any wheel's radius"):
+        fit_magic_formula(table.assign(mz=mz), starts=1)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [-1.0, 0.0, 1.0])
 def test_slip_angles_of_one_sign_leave_the_asymmetry_open(sign):
     table = points()

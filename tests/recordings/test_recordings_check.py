@@ -318,3 +318,17 @@ def test_a_side_force_away_from_the_lean_is_reported():
 
 def test_a_camber_that_goes_with_the_slip_angle_says_nothing():
     assert check_recording(leaning(-1.0, lean=lambda slip: 0.2 * slip)) == []
+
+
+@pytest.mark.parametrize(("unit", "found"), [(1.0, set()), (np.pi / 180.0, {"implausible_stiffness"})])
+def test_a_force_that_rises_faster_than_any_tires_is_reported(unit, found):
+    """Radians in a column of degrees: nothing was said of a tire that slides at 0.2 deg."""
+    frame = with_moment(0.03)
+    frame["slip_angle"] *= unit
+    assert {issue.name for issue in check_recording(frame)} == found
+
+
+def test_a_noise_about_no_slip_is_no_stiffness():
+    frame = with_moment(0.03)
+    frame["slip_angle"] = np.random.default_rng(1).normal(0.0, 1e-4, len(frame))
+    assert "implausible_stiffness" not in {issue.name for issue in check_recording(frame)}

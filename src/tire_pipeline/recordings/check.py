@@ -26,6 +26,7 @@ from tire_pipeline.recordings.physical_signs import (
     moment_beyond_reach,
     moment_of_other_sign,
     side_force_away_from_the_lean,
+    slip_too_small,
 )
 from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
 from tire_pipeline.recordings.spikes import said_of_spikes, spikes
@@ -234,7 +235,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
         issues += _spikes(str(column), values) if column in USED and column != "time" else []
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
-    issues += slip_ratio_defined_otherwise(frame) + moment_beyond_reach(frame)
+    issues += slip_ratio_defined_otherwise(frame) + slip_too_small(frame) + moment_beyond_reach(frame)
     return issues + moment_of_other_sign(frame) + side_force_away_from_the_lean(frame)
 
 

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import TANGENTIAL_FORCES, TIRE_RADII
-from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_RATIO
+from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FORCES, TIRE_RADII
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.pages.numbers_in_words import in_digits
-from tire_pipeline.recordings.conventions.plausible import plausible, size
+from tire_pipeline.recordings.conventions.plausible import FORCE_OVER_LOAD, plausible, size
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
@@ -104,6 +104,38 @@ def moment_beyond_reach(frame: pd.DataFrame) -> list[Issue]:
         f"an arm of {in_digits(arm)} m is longer than the wheel's radius: look at the units of mz and forces"
     )
     return [Issue("implausible_moment", "warning", where, todo)]
+
+
+def slip_too_small(frame: pd.DataFrame) -> list[Issue]:
+    """Report a slip so small that the slip stiffness would be beyond any tire's: radians taken for degrees.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    issues = []
+    for slip, force in FORCE_OF_SLIP.items():
+        columns = _columns(frame, (slip, "normal_load", force))
+        if not columns:
+            continue
+        x, load, y = columns
+        good = np.isfinite(x) & np.isfinite(y) & (np.abs(load) > 0.0)
+        if good.sum() < FEWEST_ROWS or size(y) > FORCE_OVER_LOAD[1] * size(
+            load
+        ):  # another unit than the slip's
+            continue
+        stiffness = abs(_slope(x[good], y[good] / np.abs(load[good])))
+        most = BOUNDS[f"PK{force[1].upper()}1"][1]
+        if stiffness > most:
+            unit = " rad" if slip in ANGLE_CHANNELS else ""
+            where = f"{slip}, up to {in_digits(size(x))}{unit}"
+            todo = (
+                f"a slip stiffness of {in_digits(stiffness)} times the load is beyond any tire's "
+                f"({in_digits(most)}): look at the units of {slip}, {force} and normal_load"
+            )
+            issues.append(Issue("implausible_stiffness", "warning", where, todo))
+    return issues
 
 
 def _columns(frame: pd.DataFrame, names: Sequence[str]) -> list[np.ndarray]:

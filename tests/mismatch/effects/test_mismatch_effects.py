@@ -124,6 +124,26 @@ def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
     assert np.nanmedian(ratio[large]) == pytest.approx(1.2, abs=0.03)
 
 
+def test_friction_leaves_the_thrust_of_a_leaning_wheel(tire, record):
+    """Tread elements that stick bear it. With a scaled thrust, friction was "compliance" and "force_gain"."""
+    leaning = tire.replace(PHY1=0.004, PHY3=0.15, PVY3=-0.2)
+    recording = record().assign(camber=0.05)
+    recording["slip_angle"] = np.linspace(-0.2, 0.2, len(recording))
+    data = prepare(leaning, recording).data
+    zero = catalogue()["friction_scale"].zeros(data)
+    base, slippery = (
+        simulate(data, [("friction_scale", {**zero, "friction": x})] if x else [])["fy"] for x in (0.0, -0.3)
+    )
+    straight = int(np.argmin(np.abs(recording["slip_angle"].to_numpy())))
+    assert abs(base[straight]) > 300.0
+    assert slippery[straight] == pytest.approx(base[straight], rel=0.05)
+    assert slippery[[0, -1]] == pytest.approx(0.7 * base[[0, -1]], rel=0.05)
+    zero = catalogue()["stiffness_scale"].zeros(data)
+    stiff = simulate(data, [("stiffness_scale", {**zero, "stiffness": 0.2})])["fy"]
+    assert stiff[straight] == pytest.approx(1.2 * base[straight], rel=0.05)
+    assert np.argmin(np.abs(stiff)) == pytest.approx(np.argmin(np.abs(base)), abs=2)
+
+
 def test_a_file_that_is_right_at_another_load_needs_no_other_friction_level(tire, record):
     """A second name, friction, came up beside the load wherever a file was not right at its nominal load."""
     few = all_but("load_sensitivity", "friction_scale", "stiffness_scale", "load_gain", "load_offset")

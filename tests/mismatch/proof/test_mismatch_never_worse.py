@@ -166,3 +166,16 @@ def test_probabilities_in_the_report_hold_95_percent_and_no_more_sets_than_that_
     assert 0.95 < sum(probabilities) <= 1.0 + 1e-9
     assert sum(probabilities[:-1]) <= 0.95
     assert np.all(np.diff(probabilities) <= 0.0)
+
+
+def test_a_sweep_is_said_to_separate_only_what_it_separates(tire, record):
+    """Another speed tells the lags apart, and says nothing of which gain is wrong."""
+    lags, gains = ("relaxation_length", "time_delay"), ("force_gain", "load_gain")
+    it = Explainer(without=all_but(*lags, *gains)).weigh(tire, record(5, delay=0.15))
+    plain = CorrectedModel(tire, (), it.analysis.data.outputs, Reference(it.analysis.data.states.scales))
+    both = replace(it.answer, sets=((gains, 0.99), (lags, 0.9)))
+    said = next_experiment(it.analysis, both, plain)
+    assert said.startswith("To separate relaxation length from ")
+    assert "gain" not in said
+    only = replace(it.answer, sets=((gains, 0.99),))
+    assert next_experiment(it.analysis, only, plain).startswith("Hang a known weight")

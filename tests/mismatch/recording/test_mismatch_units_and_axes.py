@@ -226,3 +226,21 @@ def test_units_of_channels_that_no_explanation_uses_are_not_listed(tire, record,
     assumed = prepare(tire, recording).assumed
     assert any("speed: V converted from km/h" in text for text in assumed)
     assert not any("loaded_radius" in text for text in assumed)
+
+
+@pytest.mark.parametrize(("mirrored", "stated"), [(True, False), (True, True), (False, False)])
+def test_axes_that_nobody_stated_are_open_where_others_agree_better(tire, record, tmp_path, mirrored, stated):
+    """A positive load, no camber, a lag, and a ply steer to the other side: "conicity or ply steer", 0.99."""
+    asymmetric = tire.replace(PHY1=0.004)
+    r = record(3).iloc[:1500].assign(camber=0.0)
+    late = r["slip_angle"].shift(3, fill_value=0.0)
+    r["fy"] = asymmetric.forces(slip_angle=late, normal_load=r["normal_load"], limits="ignore").fy
+    if mirrored:
+        r = r.assign(slip_angle=-r["slip_angle"], fy=-r["fy"])
+    path = tmp_path / "rig.csv"
+    r[["time", "slip_angle", "camber", "normal_load", "fy"]].to_csv(path, index=False)
+    question = prepare(asymmetric, read_recording(path, axes="ISO" if stated else None)).question
+    if mirrored and not stated:
+        assert "in SAE axes the RMS difference of Fy is" in question.why
+    else:
+        assert question is None

@@ -245,11 +245,31 @@ def test_the_place_is_on_the_axis_of_what_is_named():
     low = replace(PLACE, axis="pressure", low=7e4, high=7.1e4, mean=57.0)
     named, unnamed = (
         head("explained", effects, FIT, [warm, low], NONE, "", ranges).text
-        for effects in ([replace(EFFECT, where=where)], [EFFECT])
+        for effects in ([replace(EFFECT, name="inflation_pressure", where=where)], [EFFECT])
     )
     assert "At pressure below 71 kPa, Fy is on average 57 N" in named
     assert "tread temperature" not in named
     assert "At tread temperature between 56 and 58 degC" in unnamed
+
+
+@pytest.mark.parametrize(
+    ("where", "even"),
+    [
+        ({"slip_angle": (-0.2, 0.2), "tread_temperature": (38.0, 41.0)}, {}),
+        ({"slip_angle": (-0.2, 0.2), "tread_temperature": (30.0, 70.0)}, {}),
+        ({}, {"fy": Throughout(-250.0, -0.1)}),
+    ],
+)
+def test_no_place_is_on_an_axis_that_merely_came_along(where, even):
+    """An offset of the slip angle was placed at the tread's temperature, a gain in the time of a sweep."""
+    ranges = {"slip_angle": (-0.21, 0.21), "tread_temperature": (30.0, 75.0), "time": (0.0, 60.0)}
+    effect = replace(EFFECT, name="slip_angle_offset" if where else "force_gain", where=where)
+    warm = replace(PLACE, axis="tread_temperature", low=38.0, high=41.0, mean=300.0)
+    late = replace(PLACE, axis="time", low=21.0, high=41.0, mean=-300.0)
+    told = head("explained", [effect], FIT, [warm, late, PLACE], NONE, "", ranges, even).text
+    assert "t slip angle between 5.73 and" in told
+    assert "temperature" not in told
+    assert "41 s" not in told
 
 
 TIMED = {"time": (0.0, 60.0), "pressure": (2e5, 3e5), "slip_ratio": (-0.2, 0.0), "slip_angle": (-0.1, 0.1)}

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.proof.held_out import recorded_moments
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.unnamed_physics.found import from_sidecar
 from tire_pipeline.tir import read_tir
 
@@ -124,3 +126,14 @@ def test_a_moment_that_agrees_has_no_figure(with_trail, rig, tmp_path):
     page = explain_mismatch(with_trail, rig()).to_html(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "Mz (N m)" in page
     assert "Mz recorded - simulated" not in page
+
+
+def test_a_moment_with_a_short_hole_is_judged(with_trail, rig):
+    """A slip that steps passes the peak of Mz in a sample, which stands out; then nothing was said of Mz."""
+    recording = rig()
+    recording.loc[[400, 900, 901], "mz"] = np.nan
+    data = prepare(with_trail, recording).data
+    assert recorded_moments(data) == ("mz",)
+    assert np.abs(data.channels["mz"][400] - rig()["mz"][400]) < 20.0
+    recording.loc[400:420, "mz"] = np.nan
+    assert recorded_moments(prepare(with_trail, recording).data) == ()

@@ -1,8 +1,9 @@
 """Known effects put into a real recording by their mechanism.
 
-Where it can be, no formula is needed: by similarity (Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., 4.2.1) a
-tire with the friction ``m`` gives ``m`` times the force at ``m`` times the slip, a tire with the stiffness
-``s`` the same force at ``1 / s`` of the slip, so a recording of the one is made from that of the other. A lag
+By similarity (Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., 4.2.1) a tire with the friction ``m`` gives
+``m`` times the force at ``m`` times the slip, a tire with the stiffness ``s`` the same force at ``1 / s`` of
+the slip, so a recording of the one is made from that of the other. The thrust of camber, ply steer and
+conicity does not come from friction: the formula says at which slip angle they leave no side force. A lag
 of the slip needs the force at slips that were not there at that moment: the formula fitted to these very
 sweeps gives the difference, and what it leaves of the recorded force stays as it is.
 """
@@ -155,6 +156,10 @@ def draw_details(name: str, rng: np.random.Generator, time: np.ndarray) -> Detai
     )
 
 
+_ABOUT_STRAIGHT = 1e-3
+"""rad: force and slip are in proportion below that."""
+
+
 def friction_work(frame: Frame) -> np.ndarray:
     """Friction work done before each sample of one run, J; time between the pieces does not count."""
     if "time" not in frame or "speed" not in frame:
@@ -169,39 +174,51 @@ def _starts(pieces: np.ndarray) -> np.ndarray:
     return np.diff(pieces, prepend=pieces[0] - 1) != 0
 
 
-def _similar(frame: Frame, friction: np.ndarray | float, stiffness: np.ndarray | float = 1.0) -> Frame:
+def _similar(
+    frame: Frame, s: RecordedSession, friction: np.ndarray | float, stiffness: np.ndarray | float = 1.0
+) -> Frame:
     """The run of a tire with another friction and another slip stiffness, by similarity."""
-    slip = np.tan(frame["slip_angle"]) * friction / stiffness
+    straight = _straight_ahead(frame, s)
+    slip = straight + (np.tan(frame["slip_angle"]) - straight) * friction / stiffness
     return frame.assign(slip_angle=np.arctan(slip), fy=frame["fy"] * friction)
 
 
-def _friction(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, 1.0 + x)
+def _straight_ahead(frame: Frame, s: RecordedSession) -> np.ndarray:
+    """Slip angle without a side force at the camber and load of each sample, by the formula."""
+    low, zero, high = (
+        model_forces(s.formula, frame.assign(slip_angle=x))[:, 1]
+        for x in (-_ABOUT_STRAIGHT, 0.0, _ABOUT_STRAIGHT)
+    )
+    return -zero * 2.0 * _ABOUT_STRAIGHT / (high - low)
 
 
-def _stiffness(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, 1.0, 1.0 + x)
+def _friction(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
+    return _similar(frame, s, 1.0 + x)
+
+
+def _stiffness(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
+    return _similar(frame, s, 1.0, 1.0 + x)
 
 
 def _load(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, np.maximum(1.0 + x * (frame["normal_load"] / s.load - 1.0), 0.1))
+    return _similar(frame, s, np.maximum(1.0 + x * (frame["normal_load"] / s.load - 1.0), 0.1))
 
 
 def _temperature(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, 1.0 + x * (frame["tread_temperature"] - s.temperature) / 10.0)
+    return _similar(frame, s, 1.0 + x * (frame["tread_temperature"] - s.temperature) / 10.0)
 
 
 def _speed(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     grade = np.log(np.maximum(frame["speed"], 0.1) / s.speed)
-    return _similar(frame, np.maximum(1.0 + x * grade, 0.1))
+    return _similar(frame, s, np.maximum(1.0 + x * grade, 0.1))
 
 
 def _wear(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, np.maximum(1.0 + x * friction_work(frame) / s.work, 0.1))
+    return _similar(frame, s, np.maximum(1.0 + x * friction_work(frame) / s.work, 0.1))
 
 
-def _surface(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, d: Details) -> Frame:
-    return _similar(frame, np.where(frame["time"] >= d.moment, 1.0 + x, 1.0))
+def _surface(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, d: Details) -> Frame:
+    return _similar(frame, s, np.where(frame["time"] >= d.moment, 1.0 + x, 1.0))
 
 
 def _compliance(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:

@@ -72,14 +72,18 @@ class BaseSimulation:
             setattr(state, slip, first_order(getattr(state, slip), gain, recording.start))
 
     def forces(self, state: State) -> dict[str, Array]:
-        """Return fx and fy, N, by similarity: friction m and stiffness k turn F(s) into m F(s k / m)."""
+        """Return fx and fy, N, by similarity: friction m and stiffness k turn F(s) into m F(s k / m).
+
+        The slip angle counts from where the side force is zero.
+        """
         m_x, ratio_x, m_y, ratio_y = _similarity(state)
+        slip_angle = self._similar_slip_angle(state, ratio_y)
         tire = self._tire(state)
 
         def at(load: Array) -> dict[str, Array]:
             return plain_forces(
                 tire,
-                slip_angle=state.slip_angle * ratio_y,
+                slip_angle=slip_angle,
                 slip_ratio=state.slip_ratio * ratio_x,
                 camber=state.camber,
                 normal_load=load,
@@ -102,6 +106,7 @@ class BaseSimulation:
         mz and the longitudinal one for my.
         """
         m_x, ratio_x, m_y, ratio_y = _similarity(state)
+        slip_angle = self._similar_slip_angle(state, ratio_y)
         known = (("speed", self.nominal.model_speed), ("pressure", self.nominal.model_pressure))
         more: dict[str, Any] = {n: v for n, v in known if v is not None}
         tire = self._tire(state)
@@ -110,7 +115,7 @@ class BaseSimulation:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 out = tire.forces(
-                    slip_angle=state.slip_angle * ratio_y,
+                    slip_angle=slip_angle,
                     slip_ratio=state.slip_ratio * ratio_x,
                     camber=state.camber,
                     normal_load=load,
@@ -122,6 +127,15 @@ class BaseSimulation:
 
         scale = {"mx": np.exp(m_y), "my": np.exp(m_x), "mz": np.exp(m_y)}
         return {n: moment * scale[n] for n, moment in _mean_of_wheels(state, at).items()}
+
+    def _similar_slip_angle(self, state: State, ratio: Array) -> Array:
+        """Return the slip angle at which the model is asked, rad.
+
+        It counts from where the side force is zero, as with LMUY and LKY: camber, ply steer and conicity
+        act as a slip angle (Pacejka, 3rd ed., 4.2: the equivalent slip angle).
+        """
+        plain = state.slip_angle * ratio
+        return plain + self.straight_ahead * (1.0 - ratio) if (ratio != 1.0).any() else plain
 
     def _tire(self, state: State) -> TireModel:
         tire = self.nominal.tire
@@ -152,14 +166,12 @@ class BaseSimulation:
         """fx and fy of the model, recorded or not, without any relaxation, N."""
         return self._forces_at(self.recording.get("slip_angle"))
 
-    def _forces_at(self, slip_angle: Array) -> dict[str, Array]:
-        """Return fx and fy, N, at another slip angle."""
+    def _forces_at(self, slip_angle: Array, **others: Array) -> dict[str, Array]:
+        """Return fx and fy, N, at another slip angle, and other inputs if they are given."""
+        at = {n: self.recording.get(n) for n in SLIP_AND_LOAD} | others | {"slip_angle": slip_angle}
         return plain_forces(
             self.nominal.tire,
-            slip_angle=slip_angle,
-            slip_ratio=self.recording.get("slip_ratio"),
-            camber=self.recording.get("camber"),
-            normal_load=self.recording.get("normal_load"),
+            **at,
             speed=self.nominal.model_speed,
             pressure=self.nominal.model_pressure,
         )
@@ -203,6 +215,14 @@ class BaseSimulation:
             for axis, value in f.items():
                 out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
         return out
+
+    @cached_property
+    def straight_ahead(self) -> Array:
+        """Slip angle (rad) without a side force at the recorded camber and load, by the slope at zero."""
+        at = {n: self.recording.get(n) for n in SLIP_AND_LOAD}
+        at |= dict.fromkeys(("slip_angle", "slip_ratio"), np.zeros(self.recording.size))
+        thrust, slope = self._forces_at(**at)["fy"], self._slope_at(at, "slip_angle")["fy"]
+        return np.divide(-thrust, slope, out=np.zeros(self.recording.size), where=np.abs(slope) > 1.0)
 
     @cached_property
     def shift_by_thrust(self) -> Array:

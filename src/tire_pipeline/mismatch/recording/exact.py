@@ -13,10 +13,12 @@ import scipy
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
-from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
+from tire_pipeline.mismatch.effects.sensor.sign_convention import better_in_sae, excludes_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
 from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.pages.numbers_in_words import in_digits
+from tire_pipeline.recordings.conventions.axis_systems import NOT_STATED
 
 Array = np.ndarray
 
@@ -108,7 +110,12 @@ def _of_two_units(channel: str, last: Finding, findings: Iterable[Finding]) -> R
 
 
 def open_axes(
-    tire: Any, arrays: Mapping[str, Array], time: Array | None, findings: Iterable[Finding], against: str
+    tire: Any,
+    arrays: Mapping[str, Array],
+    time: Array | None,
+    findings: Iterable[Finding],
+    against: str,
+    assumed: Iterable[str] = (),
 ) -> Question | None:
     """Return what is open about the axes of a recording.
 
@@ -122,6 +129,8 @@ def open_axes(
     findings : iterable of Finding
     against : str
         What the reader saw in the file that speaks against the axes it was read in.
+    assumed : iterable of str
+        What the reader assumed: axes that nobody stated are open where others agree better.
     """
     signs = [f for f in findings if f.axes and f.channel != "normal_load"]
     if signs:
@@ -129,9 +138,17 @@ def open_axes(
         return Question(f"the recording agrees with the model only in other axes ({said})", _READ_AGAIN)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
-    if against and not excludes_sae(some, partial(forces_at, tire)):
+    run = partial(forces_at, tire)
+    if against and not excludes_sae(some, run):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
         return Question(f"{against}, and {both}", _READ_AGAIN)
+    if any(text.startswith(NOT_STATED) for text in assumed) and (errors := better_in_sae(some, run)):
+        given, sae = (in_digits(x) for x in errors)
+        return Question(
+            f"the axes of the file were not stated, and in SAE axes the RMS difference of Fy is {sae} N "
+            f"instead of {given} N",
+            _READ_AGAIN,
+        )
     return None
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import FORCE_CHANNELS, INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
@@ -205,7 +205,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     asked = [in_two_units(recording), unusable]
     if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
-        axes = open_axes(tire, arrays, time, findings, against)
+        axes = open_axes(tire, arrays, time, findings, against, recording.attrs.get("assumed", ()))
         asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *alone, *_zeros(arrays, rows.size), *assumed_radius(tire)]
@@ -317,7 +317,7 @@ def _check_together(arrays: Mapping[str, Array]) -> None:
 def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
     """Put straight lines over holes of up to three samples, so that the time base stays even."""
     filled = np.zeros(arrays["normal_load"].size, bool)
-    for name in (*INPUT_CHANNELS, *TANGENTIAL_FORCES):
+    for name in (*INPUT_CHANNELS, *FORCE_CHANNELS):
         if name not in arrays:
             continue
         x = arrays[name]

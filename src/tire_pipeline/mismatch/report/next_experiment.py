@@ -54,6 +54,8 @@ class StandardSweep:
 def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel) -> str:
     """Return the sweep that separates the open names best, in words; nothing where none is open.
 
+    Each set of names is a question of its own: a sweep that answers one may say nothing of another.
+
     Parameters
     ----------
     analysis : Analysis
@@ -61,31 +63,53 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     model : CorrectedModel
         Of the recording, with nothing added.
     """
-    rivals = _rivals(answer)
-    if len(rivals) < 2:
+    open_names = _sets_that_are_open(answer)
+    if not open_names:
         return ""
-    gains = {sweep.text: _gain(sweep, rivals, model, analysis) for sweep in _sweeps(analysis)}
-    weights = np.array([p for _, p in rivals])
-    most = float(scipy.stats.entropy(weights))
-    best = max(gains, key=lambda text: gains[text])
-    settles = gains[best] >= 0.5 * most  # more than it leaves open
+    sweeps = list(_sweeps(analysis))
+    gains = np.array([[_gain(s, q.rivals, model, analysis) for q in open_names] for s in sweeps])
+    best = int(gains.sum(axis=1).argmax())
+    settled = [q for q, gain in zip(open_names, gains[best], strict=True) if gain >= 0.5 * q.entropy]
+    if settled:  # more than it leaves open
+        what = ", and ".join(q.text for q in settled)
+        return f"{what[:1].upper()}{what[1:]}, record {sweeps[best].text}."
     if answer.rivals:
-        return f"To tell the explanations apart, record {best}." if settles else ""
-    names = next(group for group, _ in answer.sets if len(group) > 1)
-    first, *others = (catalogue()[n] for n in names)
-    if not settles:
-        return f"{first.experiment[:1].upper()}{first.experiment[1:]}."
-    return f"To separate {first.title} from {' and '.join(o.title for o in others)}, record {best}."
+        return ""
+    first = catalogue()[open_names[0].names[0]]
+    return f"{first.experiment[:1].upper()}{first.experiment[1:]}."
 
 
-def _rivals(answer: SetAnswer) -> list[tuple[tuple[Change, ...], float]]:
-    """What shares the place of each name, or the answer where none stands out; with probabilities."""
-    out = [(each.changes, answer.probabilities[each.names]) for each in answer.rivals]
-    for group, sure in answer.sets:
-        if len(group) > 1:
-            for name in group:
-                out.append((answer.single(name), sure / len(group)))
-    return out
+@dataclass(frozen=True)
+class _OpenNames:
+    """What a sweep may answer: which of some explanations holds, each with its probability."""
+
+    names: tuple[str, ...]
+    rivals: list[tuple[tuple[Change, ...], float]]
+
+    @property
+    def entropy(self) -> float:
+        """What is open, as the sweep's information."""
+        return float(scipy.stats.entropy([p for _, p in self.rivals]))
+
+    @property
+    def text(self) -> str:
+        """What a sweep is recorded for."""
+        if not self.names:
+            return "to tell the explanations apart"
+        first, *others = (catalogue()[n].title for n in self.names)
+        return f"to separate {first} from {' and '.join(others)}"
+
+
+def _sets_that_are_open(answer: SetAnswer) -> list[_OpenNames]:
+    """Which name of each set holds; which explanation does, where none stands out."""
+    rivals = [(each.changes, answer.probabilities[each.names]) for each in answer.rivals]
+    if rivals:
+        return [_OpenNames((), rivals)] if len(rivals) > 1 else []
+    return [
+        _OpenNames(group, [(answer.single(name), sure / len(group)) for name in group])
+        for group, sure in answer.sets
+        if len(group) > 1
+    ]
 
 
 def _sweeps(analysis: Analysis) -> Iterator[StandardSweep]:

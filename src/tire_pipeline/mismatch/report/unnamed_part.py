@@ -40,8 +40,9 @@ class MomentError:
 
     Parameters
     ----------
-    before, mirrored : float
-        RMS error of the moment as it was recorded and with the other sign, N m.
+    before, after, mirrored : float
+        RMS error of the moment as it was recorded, with what was found in the forces, and with the other sign
+        beside what was repaired, N m.
     largest : float
         Largest moment of the model, N m.
     noise : float
@@ -49,6 +50,7 @@ class MomentError:
     """
 
     before: float
+    after: float
     mirrored: float
     largest: float
     noise: float
@@ -56,13 +58,21 @@ class MomentError:
     @property
     def far_off(self) -> bool:
         """Whether it is as far off as a fit that counts as failed; calspan's leaves 7%."""
-        above = self.before**2 - np.nan_to_num(self.noise) ** 2
-        return bool(above > (MOST_LEFT * self.largest) ** 2)
+        return self._far_off(self.before)
+
+    @property
+    def stays_far_off(self) -> bool:
+        """Whether it is as far off with what was found in the forces."""
+        return self.far_off and self._far_off(self.after)
 
     @property
     def other_sign(self) -> bool:
-        """Whether the other sign leaves less than half of the error."""
-        return self.far_off and 2.0 * self.mirrored < self.before
+        """Whether the other sign leaves less than half of the error that stays."""
+        return self.stays_far_off and 2.0 * self.mirrored < min(self.before, self.after)
+
+    def _far_off(self, error: float) -> bool:
+        above = error**2 - np.nan_to_num(self.noise) ** 2
+        return bool(above > (MOST_LEFT * self.largest) ** 2)
 
 
 def moment_error(analysis: Analysis, fit: Mapping[str, OutputFit]) -> MomentError | None:
@@ -73,7 +83,8 @@ def moment_error(analysis: Analysis, fit: Mapping[str, OutputFit]) -> MomentErro
     simulated = simulate_moments(data, [], (ALIGNING_MOMENT,))[ALIGNING_MOMENT]
     recorded = data.channels[ALIGNING_MOMENT]
     own = fit[ALIGNING_MOMENT]
-    return MomentError(own.rms_before, rms(recorded + simulated), largest(simulated), own.noise_floor)
+    mirrored = rms(recorded + simulated)
+    return MomentError(own.rms_before, own.rms_after, mirrored, largest(simulated), own.noise_floor)
 
 
 def only_moment(moment: MomentError, found: UnnamedReport) -> bool:

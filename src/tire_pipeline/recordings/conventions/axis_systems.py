@@ -23,6 +23,9 @@ from tire_pipeline.recordings.conventions.units import find_unit
 
 _COMPONENT = {"normal_load": "z", "fx": "x", "fy": "y", "mx": "x", "my": "y", "mz": "z"}
 
+NOT_STATED = "ISO W axes, which were not stated"
+"""How the axes of a file are told that states none, and whose forces do not tell them."""
+
 
 def to_iso_w(
     frame: pd.DataFrame,
@@ -88,9 +91,7 @@ def to_iso_w(
     if systems and "?" not in systems.values():
         return "axes by the names of the channels (TYDEX)", ""
     against = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
-    return "ISO W axes, which were not stated" + (
-        f" ({against}; only Fz was mirrored)" if against else ""
-    ), against
+    return NOT_STATED + (f" ({against}; only Fz was mirrored)" if against else ""), against
 
 
 def _by_camber(frame: pd.DataFrame, origin: dict[str, str]) -> str:

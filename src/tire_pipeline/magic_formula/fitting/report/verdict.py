@@ -13,6 +13,7 @@ from tire_pipeline.channels import (
     FORCES_OF_MOMENT,
     SLIP_OF_FORCE,
     TANGENTIAL_FORCES,
+    TIRE_RADII,
 )
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP
 from tire_pipeline.magic_formula.model import TireModel
@@ -135,7 +136,10 @@ def poor_outputs(
         if (units or levels or _lost_sign(output, seen, _NO_SIGN)) and not wrong:
             wrong.append("no tire is like that")
         if wrong:
-            reason = units or of_sign or _signs(output, seen, start) or _without_force(output, points, forces)
+            reason = units or _beyond_reach(output, seen, forces)
+            reason = (
+                reason or of_sign or _signs(output, seen, start) or _without_force(output, points, forces)
+            )
             reason = reason or _strange(output, seen) or levels or _ELSE
             found[output] = f"{'; '.join(wrong)}. Likely reason: {reason}"
     return found
@@ -261,6 +265,21 @@ def _units(output: str, points: Mapping[str, np.ndarray], seen: _Measured) -> st
             f"look at the units of {output} and normal_load (newtons)."
         )
     return ""
+
+
+def _beyond_reach(output: str, seen: _Measured, forces: Mapping[str, np.ndarray]) -> str:
+    """Return that the aligning moment has a longer arm than any wheel's radius, or nothing."""
+    sizes = [float(np.nanmax(np.abs(forces[o]), initial=0.0)) for o in TANGENTIAL_FORCES if o in forces]
+    force = max(sizes, default=0.0)
+    if output != ALIGNING_MOMENT or not force or not seen.force.size:
+        return ""
+    arm = float(np.quantile(np.abs(seen.force), 0.98)) / force
+    if not arm > TIRE_RADII[1]:
+        return ""
+    return (
+        f"units; {output} has an arm of {in_digits(arm)} m over the forces, longer than any wheel's radius: "
+        f"look at the units of {output} and the forces."
+    )
 
 
 def _friction(seen: _Measured) -> float:

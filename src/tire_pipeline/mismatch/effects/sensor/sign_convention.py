@@ -158,14 +158,37 @@ def turned(findings: Iterable[Finding]) -> list[Finding]:
     return [_finding(", ".join(names), {})] if names else []
 
 
-def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
-    """Whether the side force speaks against SAE J670e (slip angle and Fy turned), for the given signs."""
+def better_in_sae(channels: Mapping[str, Array], simulate: Simulate) -> tuple[float, float] | None:
+    """Return the RMS difference of Fy for the given signs and in SAE J670e, N, where that agrees better.
+
+    Nothing where the side force speaks against it. What agrees better is not told by that: an offset of the
+    slip angle looks like a ply steer to the other side.
+    """
+    if not (both := _given_and_sae(channels, simulate)) or excludes_sae(channels, simulate):
+        return None
+    ok, given, sae = both
+    recorded = channels["fy"][ok]
+    if not 1.0 - _explained(recorded, sae[ok]) < (1.0 - _AWAY) * (1.0 - _explained(recorded, given[ok])):
+        return None
+    left, turned_left = (float(np.sqrt(np.mean((recorded - x[ok]) ** 2))) for x in (given, sae))
+    return (left, turned_left) if turned_left < left else None
+
+
+def _given_and_sae(channels: Mapping[str, Array], simulate: Simulate) -> tuple[Array, Array, Array] | None:
+    """Return where Fy is known, and the model's for the given signs and in SAE axes; None for too few."""
     if "fy" not in channels or "slip_angle" not in channels:
-        return False
+        return None
     given, sae = (_turned(channels, simulate, "fy", s) for s in ((), tuple(sorted(_SAE))))
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
-    if ok.sum() < INDEPENDENT_STRETCHES:
+    return (ok, given, sae) if ok.sum() >= INDEPENDENT_STRETCHES else None
+
+
+def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
+    """Whether the side force speaks against SAE J670e (slip angle and Fy turned), for the given signs."""
+    both = _given_and_sae(channels, simulate)
+    if not both:
         return False
+    ok, given, sae = both
     beside = _beside(channels, simulate, "fy", given)[ok]
     return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_NOT_TOLD_APART
 

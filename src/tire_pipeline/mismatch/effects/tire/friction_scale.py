@@ -23,8 +23,9 @@ class FrictionScale(Effect):
     name = "friction_scale"
     title = "another friction level"
     equation = (
-        "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays. "
-        "Where `by_file` is 1: LMUX and LMUY times m"
+        "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays. The slip angle counts from "
+        "where Fy is zero: thrusts of camber, ply steer and conicity stay, too. Where `by_file` "
+        "is 1: LMUX and LMUY times m"
     )
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LMUX, LMUY"
     constant = "friction"

@@ -24,6 +24,7 @@ class StiffnessScale(Effect):
     title = "another slip stiffness"
     equation = (
         "F = F0(k slip), k = 1 + stiffness, for Fy times 1 + lateral_stiffness; the peak stays. "
+        "The slip angle counts from where Fy is zero: thrusts of camber and ply steer change by k, too. "
         "Where `by_file` is 1: LKX and LKY times k"
     )
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"

@@ -134,7 +134,7 @@ def answered(
     probabilities: dict[Names, float] = defaultdict(float)
     for each, p in zip(every, mass, strict=True):
         probabilities[each.names] += float(p)
-    best = max((names for names in probabilities if names), key=lambda n: probabilities[n], default=())
+    best = likeliest_description(probabilities, case.unknown.steady)
     hidden = _hidden(case, likelihood, best)
     agreement = sum(
         float(p) for e, p in zip(every, mass, strict=True) if set(e.names) <= hidden and not e.unnamed
@@ -185,6 +185,36 @@ def _named(
         if likelier and name not in taken and name not in hidden:
             out.append((group, min(sure, 1.0)))
     return tuple(sorted(out, key=lambda each: -each[1]))
+
+
+def likeliest_description(probabilities: Mapping[Names, float], steady: frozenset[str]) -> Names:
+    """Return the likeliest set that holds names: of a description that shares its mass, the likeliest of it.
+
+    A gain of the force, one of the load and another friction, each beside another stiffness, are one
+    description with three names. One effect in place of all of them is not likelier than that for having one.
+
+    Parameters
+    ----------
+    probabilities : mapping
+        Set of names -> probability.
+    steady : frozenset of str
+        Channels that do not vary.
+    """
+    named = {names: p for names, p in probabilities.items() if names}
+
+    def shared(names: Names) -> float:
+        alike = (p for e, p in named.items() if any(_alike_by_one(e, names, n, steady) for n in names))
+        return named[names] + sum(alike)
+
+    top = max(named, key=shared, default=())
+    alike = [top, *(e for e in named if any(_alike_by_one(e, top, n, steady) for n in top))]
+    return max(alike, key=lambda names: named.get(names, 0.0))
+
+
+def _alike_by_one(names: Names, best: Names, name: str, steady: frozenset[str]) -> bool:
+    """Whether a set has, in place of one effect of another set, one that looks like it."""
+    other = _in_place(names, best, name)
+    return other is not None and look_alike(name, other, steady)
 
 
 def _hidden(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[str]:

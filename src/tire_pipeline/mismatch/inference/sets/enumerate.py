@@ -1,4 +1,4 @@
-"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest pair,
+"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest pairs,
 and those that differ from the likeliest by an effect that looks alike."""
 
 from __future__ import annotations
@@ -151,9 +151,12 @@ class _Fits:
         ]
         self.take(names, fitted(self.products, self.likelihood, begin))
 
-    def likeliest(self, count: int) -> Names:
-        """Return the likeliest set of so many effects, by its evidence and by what physics expects."""
-        names = [each for each in self.sets if len(each) == count]
+    def likeliest(self, count: int, without: Collection[str] = ()) -> Names:
+        """Return the likeliest set of so many effects, by its evidence and by what physics expects.
+
+        ``without`` are effects that it does not hold.
+        """
+        names = [each for each in self.sets if len(each) == count and not set(each) & set(without)]
         case = OfCase(self.likelihood.unknown, tuple(self.sets[each] for each in names))
         odds = log_prior(case, self.likelihood.learnt)[: len(names)]  # of the sets alone, which come first
         mass = [self.evidence[each] + float(p) for each, p in zip(names, odds, strict=True)]
@@ -210,7 +213,11 @@ def _with_forms(products: RecordingProducts, fits: _Fits) -> tuple[OfSet, ...]:
 
 
 def _triples(fits: _Fits, found: Screened) -> list[Names]:
-    """Return the likeliest pair with each effect that does best beside its members."""
+    """Return the likeliest pair with each effect that does best beside its members.
+
+    And each of its members with the likeliest pair of other effects: what one effect with several parameters
+    does, two may do together, as another friction and stiffness do what a temperature does.
+    """
     first = fits.likeliest(2)
     if not first:
         return []
@@ -220,7 +227,12 @@ def _triples(fits: _Fits, found: Screened) -> list[Names]:
         return float(np.sum([found.evidence[tuple(sorted((name, n)))] for n in first]))
 
     chosen = sorted(others, key=lambda name: -beside(name))[:TRIPLES]
-    return [tuple(sorted((*first, name))) for name in chosen]
+    triples = [tuple(sorted((*first, name))) for name in chosen]
+    for name in first:  # what looks like it has its place
+        alike = [n for n in found.forms if look_alike(name, n, fits.likelihood.unknown.steady)]
+        two = fits.likeliest(2, {*first, *alike})
+        triples += [tuple(sorted((name, *two)))] if two else []
+    return triples
 
 
 def _swapped(fits: _Fits, found: Screened) -> list[Names]:

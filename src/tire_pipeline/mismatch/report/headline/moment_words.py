@@ -47,7 +47,7 @@ def on_moment(moment: MomentError | None, fit: Mapping[str, OutputFit]) -> str:
     fit : mapping of str to OutputFit
         Errors with what was found.
     """
-    if moment is None or not moment.far_off:
+    if moment is None or not moment.stays_far_off:
         return ""
     after = fit[ALIGNING_MOMENT].rms_after
     of_effects = "" if after >= moment.before else f", and {newtons(after)} N m with what was found"

@@ -17,6 +17,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.headline.equation_words import of_equation, on_unnamed
 from tire_pipeline.mismatch.report.headline.spots import (
+    MORE_THAN_HALF,
     Ranges,
     corrected_most,
     on_placeless,
@@ -83,7 +84,8 @@ def head(
     if verdict == "undecided":
         causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
     else:
-        causes = _causes(verdict, effects, remainder, ranges, rivals)
+        whole = not (effects and added and fit) or not fit[corrected_most(fit)].recovered < MORE_THAN_HALF
+        causes = _causes(verdict, effects, remainder, ranges, rivals, whole=whole)
         size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
     apart = _SEVERAL_APART if _several_open(effects) else ""
     notes = (apart, on_placeless(effects, ranges), _more_left(remainder) if effects else "")
@@ -271,8 +273,10 @@ def _causes(
     remainder: Remainder,
     ranges: Ranges,
     rivals: Sequence[Sequence[str]],
+    *,
+    whole: bool,
 ) -> str:
-    """The verdict, the causes, and the unexplained residual."""
+    """The verdict, the causes, whether they are most of it, and the unexplained residual."""
     left = _what_is_left(remainder, ranges)
     if not effects and rivals:
         titles = (" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED])
@@ -286,15 +290,16 @@ def _causes(
         [_cause(e, ranges, "" if several else _APART) for e in effects if _kinds(e) == kinds]
         for kinds in ({"physics"}, {"artefact"}, {"physics", "artefact"})
     )
+    beside = ", and from " if several else " and "
     parts = []
     if physics:
-        parts.append(f"from {' and '.join(physics)}, which the model leaves out")
+        parts.append(f"from {beside.join(physics)}, which the model leaves out")
     if faults:
         fault = "a fault" if len(faults) == 1 else "faults"
-        parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
+        parts.append(f"from {beside.join(faults)}, {fault} of the recording")
     if either:
-        parts.append(f"from {' and '.join(either)}{'' if several else f': {_EITHER}'}")
-    text = f"{verdict}: {_COMES_FROM}{', and '.join(parts)}"
+        parts.append(f"from {beside.join(either)}{'' if several else f': {_EITHER}'}")
+    text = f"{verdict}: {_COMES_FROM}{'' if whole else 'in part '}{', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
 
 

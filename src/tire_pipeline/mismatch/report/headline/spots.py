@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
@@ -15,7 +16,7 @@ from tire_pipeline.mismatch.report.words import ends, newtons, place
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
 
-_HALF = 0.5
+MORE_THAN_HALF = 0.5
 _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
@@ -36,7 +37,7 @@ def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
         return ""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
-    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > MORE_THAN_HALF * (last - first):
         return ""
     return "between " + ", ".join("{} and {} s".format(*ends("time", a, b)) for a, b in effect.when)
 
@@ -56,7 +57,7 @@ def spot_of(
     if any(np.isfinite(e.share) for e in effects) and fit:  # the place and the error are of one force
         located = [f for f in located if f.output == corrected_most(fit)] or located
     throughout = max(located, key=lambda f: abs(f.mean)).output in even
-    own = located if throughout else _of_the_effects(effects, located, ranges)
+    own = _of_slip_and_load(located) if throughout else _of_the_effects(effects, located, ranges)
     both = _to_both_sides(effects, fit, located, ranges)
     return both or (_where(own, ranges, even) if own else _where_the_effects_are(effects, ranges))
 
@@ -75,7 +76,17 @@ def _of_the_effects(
     at some tread temperature.
     """
     axes = {axis for effect in effects for axis in _drivers(effect, ranges) or _narrow_axes(effect, ranges)}
-    return [f for f in located if f.axis in axes] if axes else located
+    if axes:
+        return [f for f in located if f.axis in axes]
+    return _of_slip_and_load(located) if effects else located
+
+
+def _of_slip_and_load(located: Sequence[Located]) -> Sequence[Located]:
+    """Return the places on the axes that every force depends on, if there are any; else all.
+
+    What is off throughout is largest where the force is. The load is stepped in time and warms the tread.
+    """
+    return [f for f in located if f.axis in SLIP_AND_LOAD] or located
 
 
 def on_placeless(effects: Sequence[EffectReport], ranges: Ranges) -> str:
@@ -107,15 +118,17 @@ def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
 def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
     """Return the axes of which an effect covers a part only: what drives it, if that varies.
 
-    Else the time, if the effect is seen in a part of it, and the channel of which it covers the least.
+    Else the time, if the effect is seen in a part of it, and of the channels that it may depend on the one of
+    which it covers the least.
     """
     drivers = _drivers(effect, ranges)
+    depends_on = drivers or (*SLIP_AND_LOAD, *catalogue()[effect.name].used)
     parts = {
         axis: (high - low) / (ranges[axis][1] - ranges[axis][0])
         for axis, (low, high) in effect.where.items()
-        if axis in (drivers or ranges) and ranges[axis][1] > ranges[axis][0]
+        if axis in depends_on and axis in ranges and ranges[axis][1] > ranges[axis][0]
     }
-    narrow = [axis for axis, part in parts.items() if part < _HALF and part == min(parts.values())]
+    narrow = [axis for axis, part in parts.items() if part < MORE_THAN_HALF and part == min(parts.values())]
     return (["time"] if stretches_of(effect, ranges) else []) + narrow[:1]
 
 
@@ -127,7 +140,7 @@ def _to_both_sides(
     A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
     """
     main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
-    if main is None or not main.share > _HALF or main.output not in fit:
+    if main is None or not main.share > MORE_THAN_HALF or main.output not in fit:
         return ""
     means = [abs(f.mean) for f in located if f.output == main.output]
     spots = _where_it_is(main, ranges)
