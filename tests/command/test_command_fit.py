@@ -62,6 +62,21 @@ def test_fit_takes_several_recordings_together(folder):
     assert any("joined" in note for note in found["notes"])
 
 
+def test_fit_takes_each_slip_from_its_own_recording(folder):
+    """It was refused: each lacked a slip that varies in the other, and had no force in common with it."""
+    record("cornering.csv", seconds=30.0)
+    table = pd.read_csv("cornering.csv")
+    ratio, load = table["slip_angle"].to_numpy(), table["normal_load"].to_numpy()
+    fx = read_tir("a.tir").forces(slip_ratio=ratio, normal_load=load).fx
+    braking = table[["time", "normal_load"]].assign(slip_ratio=ratio, fx=fx)
+    braking.to_csv("braking.csv", index=False)
+    both = ("fit", "cornering.csv", "braking.csv", "-o", "out.tir", "--no-page")
+    assert "--name braking.csv:slip_angle=0" in run(*both, code=2).stderr
+    found = told(*both, "--name", "braking.csv:slip_angle=0", "--name", "cornering.csv:slip_ratio=0")
+    assert sorted(found["relative_rms"]) == ["fx", "fy"]
+    assert found["coefficients"]["PKX1"] == pytest.approx(read_tir("a.tir").value("PKX1"), rel=0.02)
+
+
 def test_fit_says_which_slip_ratio_it_was_given(folder):
     record("run.csv", seconds=30.0)
     slip = 0.1 * np.sin(np.linspace(0.0, 40.0, len(pd.read_csv("run.csv"))))

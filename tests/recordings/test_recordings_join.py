@@ -131,6 +131,21 @@ def test_what_cannot_be_joined_is_refused(recordings, message):
         join_recordings(recordings)
 
 
+def test_a_fit_takes_each_force_from_the_recordings_that_have_it():
+    cornering = run().assign(slip_ratio=0.0)
+    braking = (
+        run().rename(columns={"fy": "fx", "slip_angle": "slip_ratio"}).assign(slip_angle=0.0, speed=20.0)
+    )
+    joined = join_recordings({"a": cornering, "b": braking}, forces_of_any=True)
+    half = len(cornering)
+    assert joined["fy"].notna().tolist() == [True] * half + [False] * half
+    assert joined["fx"].notna().tolist() == [False] * half + [True] * half
+    assert "speed" not in joined
+    assert not any("fy is left out" in note for note in joined.attrs["notes"])
+    with pytest.raises(RecordingError, match="a force is not in all of a, b: a has fy, b has none"):
+        join_recordings({"a": cornering, "b": braking.drop(columns="fx")}, forces_of_any=True)
+
+
 def test_a_channel_without_a_number_counts_as_absent():
     joined = join_recordings({"a": run(pressure=2.2e5), "b": run(pressure=np.nan)})
     assert "pressure" not in joined

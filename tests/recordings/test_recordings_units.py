@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import read_recording
 
 
@@ -42,3 +43,14 @@ def test_the_size_of_a_unit(tmp_path, name: str, unit: str, column: str, si: flo
     file = tmp_path / "a.csv"
     file.write_text(f"{name} [{unit}],FY [N]\n7,1\n7,2\n")
     np.testing.assert_allclose(read_recording(file)[column], si, rtol=1e-9)
+
+
+def test_a_channel_that_no_column_holds_may_be_a_number(tmp_path):
+    file = tmp_path / "braking.csv"
+    file.write_text("SL [-],FZ [N],FX [N]\n-0.1,4000,-3000\n0.1,4000,3000\n", "utf-8")
+    named = read_recording(file, names={"slip_angle": 0, "camber": "2"}, units={"camber": "deg"})
+    assert named["slip_angle"].tolist() == [0.0, 0.0]
+    assert named["camber"].to_numpy() == pytest.approx(np.radians([2.0, 2.0]))
+    assert "slip_angle is 0 throughout, as was stated" in named.attrs["notes"]
+    with pytest.raises(RecordingError, match="slip_angel is stated to be 0, but it is no channel"):
+        read_recording(file, names={"slip_angel": 0})

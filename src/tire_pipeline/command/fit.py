@@ -69,7 +69,8 @@ def command(
         remarked += [
             f"{name}: {said}" for said in [*remarks, *map(issue_in_words, slip_ratio_defined_otherwise(run))]
         ]
-    joined = join_recordings(recordings) if len(recordings) > 1 else next(iter(recordings.values()))
+    several = len(recordings) > 1
+    joined = join_recordings(recordings, forces_of_any=True) if several else next(iter(recordings.values()))
     result = fit_magic_formula(
         joined,
         version,

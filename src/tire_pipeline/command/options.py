@@ -97,8 +97,9 @@ def reading_options(function: F) -> F:
             "names",
             multiple=True,
             metavar="COLUMN=CHANNEL",
-            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated. Of "
-            "several recordings, --axes, --unit and --name hold for all, or for one: --unit run.csv:FY=kN.",
+            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated. A "
+            "channel that no column holds may be a number: --name slip_angle=0. Of several recordings, "
+            "--axes, --unit and --name hold for all, or for one: --unit run.csv:FY=kN.",
         ),
         click.option(
             "--unit",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ _ZERO_IF_MISSING = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
 _JOINED_CHANNELS = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
 
 
-def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+def join_recordings(recordings: Mapping[str, pd.DataFrame], *, forces_of_any: bool = False) -> pd.DataFrame:
     """Join recordings of one tire on one rig.
 
     Each recording follows the one before it after a gap in time, so that no filter, lag or delay runs over
@@ -33,6 +33,9 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     ----------
     recordings : mapping of str to DataFrame
         Name -> canonical columns in SI, as from :func:`read_recording`, in the order they were recorded in.
+    forces_of_any : bool
+        Keep a force or moment that only some have, NaN elsewhere: a fit takes `fy` from one and `fx` from
+        another.
 
     Returns
     -------
@@ -79,20 +82,25 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
             todo="explain steady points and runs over time separately",
         )
     notes: list[str] = []
-    columns = _common(recordings, notes)
+    columns = _common(recordings, notes, FORCE_CHANNELS if forces_of_any else ())
     _one_axis_system(recordings)
-    parts = {name: frame[columns] for name, frame in recordings.items()}
+    parts = {name: frame.reindex(columns=columns) for name, frame in recordings.items()}
     if timed:
         parts = _one_rate(parts, notes)
     return _laid_end_to_end(parts, recordings, bool(timed), notes)
 
 
-def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[str]:
-    """Columns of all recordings, in the first one's order; note or refuse what some lack."""
+def _common(
+    recordings: Mapping[str, pd.DataFrame], notes: list[str], of_any: Collection[str] = ()
+) -> list[str]:
+    """Columns of all recordings, and some of any, in their order; note or refuse what some lack."""
     frames = list(recordings.values())
-    common = [str(c) for c in frames[0].columns if all(c in frame for frame in frames)]
+    every = dict.fromkeys(str(c) for frame in frames for c in frame.columns)
+    common = [c for c in every if c in of_any or all(c in frame for frame in frames)]
     check_missing(recordings)
     for channel in _JOINED_CHANNELS:
+        if channel in of_any:
+            continue
         lacking, moving = _lacking_and_moving(recordings, channel)
         if not 0 < len(lacking) < len(frames):
             continue
@@ -101,7 +109,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
             note += f". It varies in {', '.join(moving)}: what depends on it cannot be determined there"
         notes.append(note)
     for what, names in _NEEDED.items():
-        if not set(names) & set(common):
+        if any(not set(names) & set(common) & set(frame) for frame in frames):
             having = {name: ", ".join(n for n in names if n in frame) for name, frame in recordings.items()}
             said = ", ".join(f"{name} has {have or 'none'}" for name, have in having.items())
             raise RecordingError(
@@ -125,7 +133,8 @@ def check_missing(recordings: Mapping[str, pd.DataFrame]) -> None:
             raise RecordingError(
                 f"{channel} is not zero in {moving[0]}, and missing from {lacking[0]}: it would count as 0",
                 where=channel,
-                todo="name the channel, or leave one of the two recordings out",
+                todo=f"name the channel; or if it was 0 there, say so: --name {lacking[0]}:{channel}=0, in "
+                f"Python names={{{channel!r}: 0}}; or leave one of the two recordings out",
             )
 
 

@@ -48,7 +48,7 @@ def read_recording(
     format: str | None = None,
     axes: str | None = None,
     units: Mapping[str, str] | None = None,
-    names: Mapping[str, str] | None = None,
+    names: Mapping[str, str | float] | None = None,
 ) -> pd.DataFrame:
     """Read a recording of any known format into canonical columns, in SI and ISO W axes.
 
@@ -66,7 +66,7 @@ def read_recording(
         right, z down) mirrors slip_angle, fy, my and mz. Left out: ISO W is assumed, and `attrs` say so.
     units, names : mapping, optional
         By the file's channel name, with or without the unit in it: its unit (over what the file says), the
-        column that it is.
+        column that it is. By a column that the file lacks: the number that it was, as ``{"slip_angle": 0}``.
 
     Returns
     -------
@@ -106,7 +106,8 @@ def read_recording(
     try:
         raw = READERS[kind](file)
         bare = _split_units(raw)
-        units, names = ({bare.get(k, k): v for k, v in (said or {}).items()} for said in (units, names))
+        units = {bare.get(k, k): v for k, v in (units or {}).items()}
+        names = {bare.get(k, k): v for k, v in (names or {}).items()}
         return canonical_frame(raw, source=str(file), axes=axes, units=units, names=names)
     except RecordingError:
         raise

@@ -199,7 +199,7 @@ def read_pair(
     tir: str = "",
     axes: str | None = None,
     units: Mapping[str, str] | None = None,
-    names: Mapping[str, str] | None = None,
+    names: Mapping[str, str | float] | None = None,
 ) -> Pair:
     """Read a recording and the tire that belongs to it.
 

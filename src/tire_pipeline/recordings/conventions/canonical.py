@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pandas as pd
@@ -55,7 +55,7 @@ def canonical_frame(
     source: str,
     axes: str | None = None,
     units: Mapping[str, str] | None = None,
-    names: Mapping[str, str] | None = None,
+    names: Mapping[str, str | float] | None = None,
 ) -> pd.DataFrame:
     """Name, convert and order the channels.
 
@@ -67,17 +67,19 @@ def canonical_frame(
     axes : {"ISO", "SAE"}, optional
         The axes the file is in where its names do not say. Left out: ISO W is assumed, and that is said.
     units, names : mapping, optional
-        By the file's channel name: the unit that holds, the column that it is.
+        By the file's channel name: the unit that holds, the column that it is. By the column: a number that
+        it holds throughout.
 
     Returns
     -------
     DataFrame
         See :func:`tire_pipeline.recordings.read_recording`.
     """
+    raw, named = _with_constants(raw, names or {}, source)
     _check_units(raw, units or {}, source)
     notes, assumed = list(raw.notes), []
     conversions: list[str] = []
-    chosen = _assign(raw, dict(names or {}), notes, source)
+    chosen = _assign(raw, named, notes, source)
     origin = {column: item.name for item, _, column in chosen}
     columns, unit_names, unsaid = _in_si(chosen, units or {}, source, notes, conversions)
     if unsaid:
@@ -119,6 +121,38 @@ def canonical_frame(
         "axes_unclear": against,
     }
     return frame
+
+
+def _with_constants(
+    raw: RawRecording, names: Mapping[str, str | float], source: str
+) -> tuple[RawRecording, dict[str, str]]:
+    """Return a recording with a channel for each that is stated to hold a number, and the other names."""
+    there, size = {c.name for c in raw.channels}, max((c.values.size for c in raw.channels), default=0)
+    held, others = [], {}
+    for name, told in names.items():
+        value = _number(told)
+        if np.isnan(value):
+            others[name] = str(told)
+            continue
+        if name not in _SI or name in there:
+            is_there = "the file has that column" if name in there else "it is no channel"
+            raise RecordingError(
+                f"{name} is stated to be {told}, but {is_there}",
+                where=source,
+                todo="leave it out" if name in there else did_you_mean(name, _SI, "name a channel"),
+            )
+        held.append(RawChannel(name, None if value else _SI[name], np.full(size, value)))
+    said = [f"{channel.name} is {names[channel.name]} throughout, as was stated" for channel in held]
+    return replace(raw, channels=[*raw.channels, *held], notes=[*raw.notes, *said]), others
+
+
+def _number(text: object) -> float:
+    """Return a number, or NaN where a text is none."""
+    try:
+        value = float(str(text))
+    except ValueError:
+        return np.nan
+    return value if np.isfinite(value) else np.nan
 
 
 def _with_unit(channel: RawChannel) -> str:
