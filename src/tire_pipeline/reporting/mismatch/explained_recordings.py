@@ -47,8 +47,11 @@ class RecordingRule(Parameters):
         Pattern of their paths or file names, such as ``rig_b/*.csv``.
     axes : {"ISO", "SAE"}, optional
         Axes of their channels.
-    units, names : dict of str to str
-        By the file's channel name: its unit, and the canonical channel that it is.
+    units : dict of str to str
+        By the file's channel name: its unit.
+    names : dict of str to str or float
+        By the file's channel name: the canonical channel that it is. By a channel that the file lacks: the
+        number that it was.
     tir : str
         The tire's file, relative to the recording's folder or to that of all recordings.
     without : list of str
@@ -58,7 +61,7 @@ class RecordingRule(Parameters):
     match: str = Field("*", min_length=1)
     axes: Literal["ISO", "SAE"] | None = None
     units: dict[str, str] = {}
-    names: dict[str, str] = {}
+    names: dict[str, str | float] = {}
     tir: str = ""
     without: Several = []
 
