@@ -261,12 +261,18 @@ def found_rates() -> list[str]:
     return out
 
 
-def size_rates() -> list[str]:
-    """Return the sizes beside those of a likelihood-ratio test, as lines."""
+def sized() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
+    """Return rows of sizes with ``ratio`` and ``held``: all, those with a ratio, simulated intervals."""
     rows = newest(SIZES)
     rows["ratio"] = rows["seen"] / rows["told"]
     rows["held"] = (rows["value"].abs() <= Z * rows["error"]).where(np.isfinite(rows["error"]))
     seen = rows[np.isfinite(rows["seen"]) & np.isfinite(rows["told"])]
+    return rows, seen, rows[(rows["source"] == "simulated") & rows["held"].notna()]
+
+
+def size_rates() -> list[str]:
+    """Return the sizes beside those of a likelihood-ratio test, as lines."""
+    rows, seen, clean = sized()
     hidden = rows[~np.isfinite(rows["seen"]) & np.isfinite(rows["told"])]
     out = [f"`seen` over the size of a likelihood-ratio test ({about(rows)})"]
     for by in ("source", "effect"):
@@ -279,7 +285,6 @@ def size_rates() -> list[str]:
         f"above 3: {int((seen['ratio'] > 3.0).sum())} of {len(seen)}; the test would see it, and the report "
         f"says that no size would be named: {len(hidden)}",
     ]
-    clean = rows[(rows["source"] == "simulated") & rows["held"].notna()]
     held = clean.groupby("effect")["held"].agg(["mean", "size"]).astype(float).round(2)
     out += [
         "",
@@ -293,10 +298,7 @@ def size_rates() -> list[str]:
 
 def shown_on_page() -> str:
     """Return the rates by source, as a table, and which engines they are of."""
-    found, sizes = newest(FOUND), newest(SIZES)
-    both = np.isfinite(sizes["seen"]) & np.isfinite(sizes["told"])
-    ratio = (sizes["seen"] / sizes["told"])[both]
-    held = (sizes["value"].abs() <= Z * sizes["error"]).astype(float)
+    found, (sizes, seen, clean) = newest(FOUND), sized()
     head = [
         "source",
         "put in",
@@ -309,9 +311,8 @@ def shown_on_page() -> str:
     rows = []
     for source in (*SEEDS, None):
         put = found if source is None else found[found["source"] == source]
-        over = ratio if source is None else ratio[sizes["source"] == source]
-        simulated = sizes["source"].eq("simulated") & np.isfinite(sizes["error"])
-        inside = f"{held[simulated].mean():.3f} of {simulated.sum()}" if source == "simulated" else ""
+        over = seen["ratio"] if source is None else seen.loc[seen["source"] == source, "ratio"]
+        held = f"{clean['held'].astype(float).mean():.3f} of {len(clean)}" if source == "simulated" else ""
         rows.append(
             [
                 source or "all",
@@ -320,7 +321,7 @@ def shown_on_page() -> str:
                 f"{put['first'].mean():.2f}",
                 f"{over.median():.2f}",
                 f"{(over > 3.0).sum()} of {len(over)}",
-                inside,
+                held,
             ]
         )
     made = f"Put in: {about(found)}.\n\nSizes and intervals: {about(sizes)}."

@@ -121,9 +121,8 @@ def slip_too_small(frame: pd.DataFrame) -> list[Issue]:
             continue
         x, load, y = columns
         good = np.isfinite(x) & np.isfinite(y) & (np.abs(load) > 0.0)
-        if good.sum() < FEWEST_ROWS or size(y) > FORCE_OVER_LOAD[1] * size(
-            load
-        ):  # another unit than the slip's
+        another_unit = size(y) > FORCE_OVER_LOAD[1] * size(load)  # than the slip's is wrong
+        if good.sum() < FEWEST_ROWS or another_unit:
             continue
         stiffness = abs(_slope(x[good], y[good] / np.abs(load[good])))
         most = BOUNDS[f"PK{force[1].upper()}1"][1]

@@ -22,6 +22,8 @@ from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.magic_formula import TireModel
 
 Frame: TypeAlias = pd.DataFrame
+_ABOUT_STRAIGHT = 1e-3
+"""rad: force and slip are in proportion below that."""
 
 
 @dataclass(frozen=True)
@@ -154,10 +156,6 @@ def draw_details(name: str, rng: np.random.Generator, time: np.ndarray) -> Detai
         interval=(at(first), at(first + length)),
         phase=float(rng.uniform(0.0, 2.0 * np.pi)),
     )
-
-
-_ABOUT_STRAIGHT = 1e-3
-"""rad: force and slip are in proportion below that."""
 
 
 def friction_work(frame: Frame) -> np.ndarray:

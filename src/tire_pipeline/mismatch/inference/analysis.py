@@ -149,14 +149,13 @@ def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
     """
     total, weight = 0.0, 0.0
     for x in left.values():
-        colour = 1.0
+        power, colour = float(np.mean(x**2)), 1.0
         if in_time:
-            power = max(float(np.mean(x**2)), 1e-12)
             for k in range(1, _LAGS_OF_COLOUR + 1):
-                value = float(np.mean(x[k:] * x[:-k])) / power
+                value = float(np.mean(x[k:] * x[:-k])) / max(power, 1e-12)
                 if value * np.sqrt(x.size) < 1.0:  # no more than white noise has
                     break
                 colour += 2.0 * value
-        total += max(float(np.mean(x**2)), 0.5) * colour
+        total += max(power, 0.5) * colour
         weight += 1.0
     return float(np.clip(total / weight, 1.0, 1.0 + 2.0 * _LAGS_OF_COLOUR))

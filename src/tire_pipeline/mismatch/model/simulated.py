@@ -164,14 +164,13 @@ class BaseSimulation:
     @cached_property
     def both_forces(self) -> dict[str, Array]:
         """fx and fy of the model, recorded or not, without any relaxation, N."""
-        return self._forces_at(self.recording.get("slip_angle"))
+        return self._forces_at()
 
-    def _forces_at(self, slip_angle: Array, **others: Array) -> dict[str, Array]:
-        """Return fx and fy, N, at another slip angle, and other inputs if they are given."""
-        at = {n: self.recording.get(n) for n in SLIP_AND_LOAD} | others | {"slip_angle": slip_angle}
+    def _forces_at(self, **inputs: Array) -> dict[str, Array]:
+        """Return fx and fy, N, at some inputs, and as recorded in the others."""
         return plain_forces(
             self.nominal.tire,
-            **at,
+            **{n: inputs[n] if n in inputs else self.recording.get(n) for n in SLIP_AND_LOAD},
             speed=self.nominal.model_speed,
             pressure=self.nominal.model_pressure,
         )
@@ -184,7 +183,7 @@ class BaseSimulation:
         """
 
         def wanted(angle: Array) -> Array:
-            force = self._forces_at(angle)
+            force = self._forces_at(slip_angle=angle)
             return slip_angle - steer * force["fy"] - steer_by_fx * force["fx"]
 
         before, here = slip_angle, wanted(slip_angle)
@@ -199,38 +198,37 @@ class BaseSimulation:
     def slope(self, name: str) -> dict[str, Array]:
         """Return d force / d channel of the model by central differences."""
         if name not in self._slopes:
-            at = {n: self.recording.get(n) for n in SLIP_AND_LOAD}
-            self._slopes[name] = self._slope_at(at, name)
+            self._slopes[name] = self._slope_at({name: self.recording.get(name)}, name)
         return self._slopes[name]
 
     def _slope_at(self, at: dict[str, Array], name: str) -> dict[str, Array]:
-        """Return d force / d channel at some inputs, one a sample."""
+        """Return d force / d channel at some inputs, and as recorded in the others."""
         step = DIFFERENCE * (self.nominal.load if name == "normal_load" else 1.0)
         out: dict[str, Array] = {}
         for sign in (1.0, -1.0):
-            c = {**at, name: at[name] + sign * step}
-            f = plain_forces(
-                self.nominal.tire, speed=self.nominal.model_speed, pressure=self.nominal.model_pressure, **c
-            )
-            for axis, value in f.items():
+            there = self._forces_at(**{**at, name: at[name] + sign * step})
+            for axis, value in there.items():
                 out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
         return out
 
     @cached_property
     def straight_ahead(self) -> Array:
         """Slip angle (rad) without a side force at the recorded camber and load, by the slope at zero."""
-        at = {n: self.recording.get(n) for n in SLIP_AND_LOAD}
-        at |= dict.fromkeys(("slip_angle", "slip_ratio"), np.zeros(self.recording.size))
-        thrust, slope = self._forces_at(**at)["fy"], self._slope_at(at, "slip_angle")["fy"]
-        return np.divide(-thrust, slope, out=np.zeros(self.recording.size), where=np.abs(slope) > 1.0)
+        zero = np.zeros(self.recording.size)
+        straight = {"slip_angle": zero, "slip_ratio": zero}
+        return self._over_slope(-self._forces_at(**straight)["fy"], straight)
 
     @cached_property
     def shift_by_thrust(self) -> Array:
         """Slip angle (rad) for a side force as large as the load, by the slope while rolling straight."""
-        zero, load = np.zeros(self.recording.size), self.recording.get("normal_load")
-        straight = {"slip_angle": zero, "slip_ratio": zero, "camber": zero, "normal_load": load}
+        zero = np.zeros(self.recording.size)
+        straight = {"slip_angle": zero, "slip_ratio": zero, "camber": zero}
+        return self._over_slope(self.recording.get("normal_load"), straight)
+
+    def _over_slope(self, force: Array, straight: dict[str, Array]) -> Array:
+        """Return the slip angle for a side force, rad, by the slope there; 0 where there is none."""
         slope = self._slope_at(straight, "slip_angle")["fy"]
-        return np.divide(load, slope, out=np.zeros(self.recording.size), where=np.abs(slope) > 1.0)
+        return np.divide(force, slope, out=np.zeros(self.recording.size), where=np.abs(slope) > 1.0)
 
     def _stiffness(self, axis: str) -> float:
         """Slip stiffness at nominal load, N per unit of slip, positive."""

@@ -13,7 +13,7 @@ import scipy
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
-from tire_pipeline.mismatch.effects.sensor.sign_convention import better_in_sae, excludes_sae, turned
+from tire_pipeline.mismatch.effects.sensor.sign_convention import beside_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
 from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -138,14 +138,15 @@ def open_axes(
         return Question(f"the recording agrees with the model only in other axes ({said})", _READ_AGAIN)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
-    run = partial(forces_at, tire)
-    if against and not excludes_sae(some, run):
+    not_stated = any(text.startswith(NOT_STATED) for text in assumed)
+    sae = beside_sae(some, partial(forces_at, tire)) if against or not_stated else None
+    if against and not (sae is not None and sae.excluded):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
         return Question(f"{against}, and {both}", _READ_AGAIN)
-    if any(text.startswith(NOT_STATED) for text in assumed) and (errors := better_in_sae(some, run)):
-        given, sae = (in_digits(x) for x in errors)
+    if not_stated and sae is not None and (errors := sae.errors_if_better):
+        given, other = (in_digits(x) for x in errors)
         return Question(
-            f"the axes of the file were not stated, and in SAE axes the RMS difference of Fy is {sae} N "
+            f"the axes of the file were not stated, and in SAE axes the RMS difference of Fy is {other} N "
             f"instead of {given} N",
             _READ_AGAIN,
         )

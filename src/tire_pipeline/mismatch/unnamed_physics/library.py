@@ -228,7 +228,7 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
         drivers = [c if c == "speed" else f"memory of {c}" for c in live]
         for value in LAGS:
             yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
-            if value in LAGS[2:] and text not in CHANNEL:
+            if value in LAGS[2:] and text not in CHANNEL:  # a slow one drives by itself, too
                 yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
         if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
             for value in WAYS if text in CHANNEL else ():

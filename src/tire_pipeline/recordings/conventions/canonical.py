@@ -15,7 +15,7 @@ from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
-from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
+from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit, number_of
 from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
 _SI = {c.name: c.unit for c in CANONICAL}
@@ -130,8 +130,8 @@ def _with_constants(
     there, size = {c.name for c in raw.channels}, max((c.values.size for c in raw.channels), default=0)
     held, others = [], {}
     for name, told in names.items():
-        value = _number(told)
-        if np.isnan(value):
+        value = number_of(str(told))
+        if value is None or not np.isfinite(value):
             others[name] = str(told)
             continue
         if name not in _SI or name in there:
@@ -144,15 +144,6 @@ def _with_constants(
         held.append(RawChannel(name, None if value else _SI[name], np.full(size, value)))
     said = [f"{channel.name} is {names[channel.name]} throughout, as was stated" for channel in held]
     return replace(raw, channels=[*raw.channels, *held], notes=[*raw.notes, *said]), others
-
-
-def _number(text: object) -> float:
-    """Return a number, or NaN where a text is none."""
-    try:
-        value = float(str(text))
-    except ValueError:
-        return np.nan
-    return value if np.isfinite(value) else np.nan
 
 
 def _with_unit(channel: RawChannel) -> str:

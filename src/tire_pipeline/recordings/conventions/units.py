@@ -81,6 +81,14 @@ def _plain(name: str) -> str:
     return text.replace("²", "2").replace("^", "").replace("μ", "µ")
 
 
+def number_of(text: str) -> float | None:
+    """Return the number that a text is, with ``E`` or Fortran's ``D`` before its exponent, or None."""
+    try:
+        return float(text.replace("D", "E").replace("d", "e"))
+    except ValueError:
+        return None
+
+
 def find_unit(name: str | None) -> Unit | None:
     """Look a unit's spelling up.
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.conventions.units import find_unit
+from tire_pipeline.recordings.conventions.units import find_unit, number_of
 
 # Columns of the parameter sections: key 1-10, comment 11-40, unit 41-50, values of ten each.
 _KEY_END, _COMMENT_END, _UNIT_END = 10, 40, 50
@@ -160,24 +160,17 @@ def _parts(line: str) -> tuple[str, str, str, list[str]]:
         return key, comment, unit, rest.split()
     pieces = re.split(r"\s{2,}", line.strip())
     values: list[str] = []
-    while len(pieces) > 1 and _number(pieces[-1]) is not None:
+    while len(pieces) > 1 and number_of(pieces[-1]) is not None:
         values.insert(0, pieces.pop())
     unit = pieces.pop() if len(pieces) > 1 and find_unit(pieces[-1]) else ""
     return pieces[0].split()[0], " ".join(pieces[1:]), unit, values
-
-
-def _number(text: str) -> float | None:
-    try:
-        return float(text.replace("D", "E").replace("d", "e"))
-    except ValueError:
-        return None
 
 
 def _scale(path: Path, number: int, line: str, notes: list[str]) -> _Scale:
     key, _, unit, values = _parts(line)
     if not key:
         raise RecordingError("a channel without a key", where=f"{path}:{number}")
-    numbers = [_number(v) for v in values[:3]]
+    numbers = [number_of(v) for v in values[:3]]
     if any(n is None or not math.isfinite(n) for n in numbers):
         raise RecordingError(
             f"channel {key}: factor and offsets are {' '.join(values[:3])!r}",
@@ -196,7 +189,7 @@ def _scale(path: Path, number: int, line: str, notes: list[str]) -> _Scale:
 def _constant(line: str) -> tuple[str, dict[str, object]]:
     key, comment, unit, values = _parts(line)
     text = " ".join(values)
-    number = _number(text) if text else None
+    number = number_of(text) if text else None
     keep = number if number is not None and math.isfinite(number) else text
     return key.upper(), {"value": keep, "unit": unit or None, "comment": comment}
 

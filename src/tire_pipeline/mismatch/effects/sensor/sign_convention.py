@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -158,39 +160,58 @@ def turned(findings: Iterable[Finding]) -> list[Finding]:
     return [_finding(", ".join(names), {})] if names else []
 
 
-def better_in_sae(channels: Mapping[str, Array], simulate: Simulate) -> tuple[float, float] | None:
-    """Return the RMS difference of Fy for the given signs and in SAE J670e, N, where that agrees better.
+@dataclass(frozen=True)
+class BesideSae:
+    """A side force, and the model's for the given signs and in SAE J670e (slip angle and Fy turned).
 
-    Nothing where the side force speaks against it. What agrees better is not told by that: an offset of the
-    slip angle looks like a ply steer to the other side.
+    Parameters
+    ----------
+    recorded, given, sae : ndarray, shape (n,)
+        N.
+    beside : ndarray, shape (n, k)
+        What may be there besides.
     """
-    if not (both := _given_and_sae(channels, simulate)) or excludes_sae(channels, simulate):
-        return None
-    ok, given, sae = both
-    recorded = channels["fy"][ok]
-    if not 1.0 - _explained(recorded, sae[ok]) < (1.0 - _AWAY) * (1.0 - _explained(recorded, given[ok])):
-        return None
-    left, turned_left = (float(np.sqrt(np.mean((recorded - x[ok]) ** 2))) for x in (given, sae))
-    return (left, turned_left) if turned_left < left else None
+
+    recorded: Array
+    given: Array
+    sae: Array
+    beside: Array
+
+    @cached_property
+    def excluded(self) -> bool:
+        """Whether the side force speaks against SAE axes."""
+        return _likelier(self.recorded, self.given, self.sae, self.beside, sized=False) <= -_NOT_TOLD_APART
+
+    @property
+    def errors_if_better(self) -> tuple[float, float] | None:
+        """RMS difference for the given signs and in SAE axes, N, where these agree better and may hold.
+
+        What agrees better is not told by that: an offset of the slip angle looks like a ply steer to the
+        other side.
+        """
+        left, turned_left = (1.0 - _explained(self.recorded, x) for x in (self.given, self.sae))
+        if self.excluded or not turned_left < (1.0 - _AWAY) * left:
+            return None
+        given, sae = (float(np.sqrt(np.mean((self.recorded - x) ** 2))) for x in (self.given, self.sae))
+        return (given, sae) if sae < given else None
 
 
-def _given_and_sae(channels: Mapping[str, Array], simulate: Simulate) -> tuple[Array, Array, Array] | None:
-    """Return where Fy is known, and the model's for the given signs and in SAE axes; None for too few."""
+def beside_sae(channels: Mapping[str, Array], simulate: Simulate) -> BesideSae | None:
+    """Return a side force beside the model's in two axis systems; None for too few samples."""
     if "fy" not in channels or "slip_angle" not in channels:
         return None
     given, sae = (_turned(channels, simulate, "fy", s) for s in ((), tuple(sorted(_SAE))))
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
-    return (ok, given, sae) if ok.sum() >= INDEPENDENT_STRETCHES else None
+    if ok.sum() < INDEPENDENT_STRETCHES:
+        return None
+    beside = _beside(channels, simulate, "fy", given)
+    return BesideSae(channels["fy"][ok], given[ok], sae[ok], beside[ok])
 
 
 def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
-    """Whether the side force speaks against SAE J670e (slip angle and Fy turned), for the given signs."""
-    both = _given_and_sae(channels, simulate)
-    if not both:
-        return False
-    ok, given, sae = both
-    beside = _beside(channels, simulate, "fy", given)[ok]
-    return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_NOT_TOLD_APART
+    """Whether the side force speaks against SAE J670e, for the given signs."""
+    both = beside_sae(channels, simulate)
+    return both is not None and both.excluded
 
 
 def _beside(channels: Mapping[str, Array], simulate: Simulate, force: str, model: Array) -> Array:

@@ -202,19 +202,11 @@ def likeliest_description(probabilities: Mapping[Names, float], steady: frozense
     """
     named = {names: p for names, p in probabilities.items() if names}
 
-    def shared(names: Names) -> float:
-        alike = (p for e, p in named.items() if any(_alike_by_one(e, names, n, steady) for n in names))
-        return named[names] + sum(alike)
+    def alike(best: Names) -> list[Names]:
+        return [names for names in named if _like_in_place(names, best, steady)]
 
-    top = max(named, key=shared, default=())
-    alike = [top, *(e for e in named if any(_alike_by_one(e, top, n, steady) for n in top))]
-    return max(alike, key=lambda names: named.get(names, 0.0))
-
-
-def _alike_by_one(names: Names, best: Names, name: str, steady: frozenset[str]) -> bool:
-    """Whether a set has, in place of one effect of another set, one that looks like it."""
-    other = _in_place(names, best, name)
-    return other is not None and look_alike(name, other, steady)
+    top = max(named, key=lambda names: named[names] + sum(named[e] for e in alike(names)), default=())
+    return max([top, *alike(top)], key=lambda names: named.get(names, 0.0))
 
 
 def _hidden(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[str]:
@@ -260,6 +252,12 @@ def _in_place(names: Names, best: Names, name: str) -> str | None:
     return next(iter(set(names) - others))
 
 
+def _like_in_place(names: Names, best: Names, steady: frozenset[str]) -> tuple[str, str] | None:
+    """Return an effect of a set and what looks like it in another set, if that is all they differ in."""
+    both = ((name, _in_place(names, best, name)) for name in best)
+    return next(((a, b) for a, b in both if b is not None and look_alike(a, b, steady)), None)
+
+
 def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[Names]:
     """Return the sets with a like effect in place of one, if they fit as well at their best.
 
@@ -270,10 +268,9 @@ def _fit_as_well(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset
     """
     steady = case.unknown.steady
     like = [
-        (each, told_by(name, other) in steady)
+        (each, told_by(*both) in steady)
         for each in case.sets
-        for name in best
-        if (other := _in_place(each.names, best, name)) is not None and look_alike(name, other, steady)
+        if (both := _like_in_place(each.names, best, steady))
     ]
     if not like:
         return frozenset()

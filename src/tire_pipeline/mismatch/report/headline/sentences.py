@@ -84,8 +84,9 @@ def head(
     if verdict == "undecided":
         causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
     else:
-        whole = not (effects and added and fit) or not fit[corrected_most(fit)].recovered < MORE_THAN_HALF
-        causes = _causes(verdict, effects, remainder, ranges, rivals, whole=whole)
+        corrected = bool(effects and added and fit)
+        partly = corrected and fit[corrected_most(fit)].recovered < MORE_THAN_HALF
+        causes = _causes(verdict, effects, remainder, ranges, rivals, partly=partly)
         size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
     apart = _SEVERAL_APART if _several_open(effects) else ""
     notes = (apart, on_placeless(effects, ranges), _more_left(remainder) if effects else "")
@@ -274,9 +275,9 @@ def _causes(
     ranges: Ranges,
     rivals: Sequence[Sequence[str]],
     *,
-    whole: bool,
+    partly: bool,
 ) -> str:
-    """The verdict, the causes, whether they are most of it, and the unexplained residual."""
+    """The verdict, the causes, whether they are a smaller part of it, and the unexplained residual."""
     left = _what_is_left(remainder, ranges)
     if not effects and rivals:
         titles = (" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED])
@@ -299,7 +300,7 @@ def _causes(
         parts.append(f"from {beside.join(faults)}, {fault} of the recording")
     if either:
         parts.append(f"from {beside.join(either)}{'' if several else f': {_EITHER}'}")
-    text = f"{verdict}: {_COMES_FROM}{'' if whole else 'in part '}{', and '.join(parts)}"
+    text = f"{verdict}: {_COMES_FROM}{'in part ' if partly else ''}{', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
 
 
