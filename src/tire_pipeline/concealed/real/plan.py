@@ -74,7 +74,6 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
     "dart": {
         "physics": ("friction_scale", "stiffness_scale", "speed_dependence", "compliance"),
         "artefact": (
-            "force_gain",
             "slip_angle_offset",
             "sensor_drift",
             "clipping",
@@ -84,6 +83,7 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "ambiguous": (
             "force_offset",
+            "force_gain",
             "load_gain",
             "relaxation_length",
             "time_delay",
@@ -109,7 +109,7 @@ EFFECTS: dict[str, dict[str, tuple[str, ...]]] = {
 """What can be put into the recordings of each source without a tire. *Ambiguous* is what these recordings
 can't tell from something else: a lag at one speed or in slow ramps; a slow change of what was not recorded;
 a side force that goes with the load; an offset where there is one load; a gain of the load, in which peak and
-slope are nearly proportional."""
+slope are nearly proportional, and at one load a gain of the force, of which it leaves a tenth at most."""
 
 HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
     "calspan": (
@@ -135,7 +135,7 @@ ALIKE: dict[str, tuple[str, ...]] = (
     dict.fromkeys(LAGGING_EFFECTS, LAGGING_EFFECTS)
     | dict.fromkeys(("wear", "surface_change"), SLOW_EFFECTS)
     | dict.fromkeys(("force_offset", "crosstalk", "camber_offset"), SIDE_FORCE_EFFECTS)
-    | {"load_gain": SCALE_EFFECTS}
+    | dict.fromkeys(("load_gain", "force_gain"), SCALE_EFFECTS)
 )
 """Effect of an ambiguous case -> names that its recording cannot separate from it."""
 
