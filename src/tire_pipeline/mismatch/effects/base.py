@@ -291,6 +291,9 @@ class Effect:
     def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Change the forces that are recorded."""
 
+    def moments(self, state: State, data: Context, p: Parameters) -> None:
+        """Change the moments that are recorded, which then stand in ``state.forces``; nothing by default."""
+
     def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Look for the effect without a fit (artefacts that are exact); nothing by default.
 

@@ -38,8 +38,8 @@ def simulate(data: Data, changes: Sequence[Change] = ()) -> dict[str, Array]:
 def simulate_moments(data: Data, changes: Sequence[Change], names: Sequence[str]) -> dict[str, Array]:
     """Simulate moments with effects added.
 
-    Effects act on the slips and on the tire; those on recorded forces (gain, offset, delay) leave the
-    moments as they are.
+    Effects act on the slips and on the tire. A lag of the recorded forces is one of the moments, too; a gain
+    or an offset of a force leaves them as they are.
 
     Parameters
     ----------
@@ -55,8 +55,11 @@ def simulate_moments(data: Data, changes: Sequence[Change], names: Sequence[str]
     """
     if not changes:
         return {name: data.simulation.base_moments[name] for name in names}
-    state, _ = _at_the_tire(data, changes)
-    return data.simulation.moments(state, names)
+    state, effects = _at_the_tire(data, changes)
+    state.forces = data.simulation.moments(state, names)
+    for effect, p in effects:
+        effect.moments(state, data, p)
+    return state.forces
 
 
 def _at_the_tire(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import first_order
@@ -13,9 +12,9 @@ from tire_pipeline.mismatch.effects.shared import first_order
 class LowPass(Effect):
     """First-order low pass: amplitude falls and phase lags with frequency.
 
-    Covers one filter for both forces; one of higher order is the same below its corner, where its lag
-    counts. Not covered: filters that differ between the forces, resonance of the rig, and filters of the
-    slip channels.
+    Covers one filter for all forces and moments; one of higher order is the same below its corner, where
+    its lag counts. Not covered: filters that differ between the forces, resonance of the rig, and filters of
+    the slip channels.
     """
 
     name = "low_pass"
@@ -44,6 +43,7 @@ class LowPass(Effect):
         if p["lag"] <= 0.0:
             return
         gain = 1.0 - np.exp(-data.step / p["lag"])
-        for name in TANGENTIAL_FORCES:
-            if name in state.forces:
-                state.forces[name] = first_order(state.forces[name], gain, data.start)
+        for name, force in state.forces.items():
+            state.forces[name] = first_order(force, gain, data.start)
+
+    moments = outputs

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import delayed
@@ -11,8 +10,8 @@ from tire_pipeline.mismatch.effects.shared import delayed
 class TimeDelay(Effect):
     """One time shift, the same at every speed and frequency.
 
-    Covers one shift of all forces against all slips, late or early. Not covered: shifts between the slips,
-    or between the forces, and clocks that drift apart.
+    Covers one shift of all forces and moments against all slips, late or early. Not covered: shifts between
+    the slips, or between the forces, and clocks that drift apart.
     """
 
     name = "time_delay"
@@ -39,6 +38,7 @@ class TimeDelay(Effect):
 
     def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Shift the forces."""
-        for name in TANGENTIAL_FORCES:
-            if name in state.forces:
-                state.forces[name] = delayed(data.time_line, state.forces[name], p["delay"], data.start)
+        for name, force in state.forces.items():
+            state.forces[name] = delayed(data.time_line, force, p["delay"], data.start)
+
+    moments = outputs
