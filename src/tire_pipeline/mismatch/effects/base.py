@@ -258,9 +258,12 @@ class Effect:
         """Whether physics requires it: its driver varied, and the file has no term for it."""
         return False
 
-    def same_fault(self, data: Context) -> str:
-        """Return a fault of the recording that is the same to the data, in words; none by default."""
-        return ""
+    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+        """Return what is the same to the data and has no name, in words and with its kind; none by default.
+
+        Kinds are those of effects: "physics" or "artefact".
+        """
+        return None
 
     def drivers(self, output: str) -> tuple[str, ...]:
         """Return the channels whose values decide how large it is in a force; none if time does."""

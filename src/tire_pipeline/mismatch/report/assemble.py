@@ -233,7 +233,7 @@ def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:
         return "partly explained" if effects else "unexplained"
     if not effects:
         return "undecided" if left.unusual else "agrees"
-    return "ambiguous" if any(e.alternatives or e.same_faults for e in effects) else "explained"
+    return "ambiguous" if any(e.alternatives or e.same_to_data for e in effects) else "explained"
 
 
 def _searched(it: Explained) -> str:

@@ -106,8 +106,8 @@ class EffectReport:
         Name of a parameter -> (low, high): its 95% interval within the parameter's bounds.
     undetermined : tuple of str
         Parameters of which the recording says less than what tires usually have (their priors).
-    same_faults : tuple of str
-        Faults of the recording that are the same to the data and have no name of their own, in words.
+    same_to_data : tuple of (words, kind)
+        What is the same to the data and has no name of its own: a fault of the recording, or physics.
 
     See Also
     --------
@@ -151,7 +151,7 @@ class EffectReport:
     evidence: dict[str, float | str] = field(default_factory=dict)
     intervals: dict[str, tuple[float, float]] = field(default_factory=dict)
     undetermined: tuple[str, ...] = ()
-    same_faults: tuple[str, ...] = ()
+    same_to_data: tuple[tuple[str, str], ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:

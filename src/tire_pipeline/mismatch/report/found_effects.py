@@ -73,7 +73,7 @@ def from_fit(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[st
         evidence={"log_evidence": answer.gains.get(name, float("nan"))},
         intervals={n: (float(ends[k, 0]), float(ends[k, 1])) for n, k in own.items()},
         undetermined=tuple(n for n, k in own.items() if open_still[k]),
-        same_faults=tuple(filter(None, (catalogue()[n].same_fault(data) for n in group))),
+        same_to_data=tuple(filter(None, (catalogue()[n].same_to_data(data) for n in group))),
     )
 
 

@@ -54,7 +54,8 @@ class StandardSweep:
 def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel) -> str:
     """Return the sweep that separates the open names best, in words; nothing where none is open.
 
-    Each set of names is a question of its own: a sweep that answers one may say nothing of another.
+    Each set of names is a question of its own: a sweep that answers one may say nothing of another. Where a
+    name is alone, what is the same to the data may be open: an effect's own experiment asks that.
 
     Parameters
     ----------
@@ -65,7 +66,9 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     """
     open_names = _sets_that_are_open(answer)
     if not open_names:
-        return ""
+        first_names = (names[0] for names, _ in answer.sets)
+        alike = (n for n in first_names if catalogue()[n].same_to_data(analysis.data))
+        return _own_experiment(next(alike, None))
     sweeps = list(_sweeps(analysis))
     gains = np.array([[_gain(s, q.rivals, model, analysis) for q in open_names] for s in sweeps])
     best = int(gains.sum(axis=1).argmax())
@@ -75,8 +78,13 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
         return f"{what[:1].upper()}{what[1:]}, record {sweeps[best].text}."
     if answer.rivals:
         return ""
-    first = catalogue()[open_names[0].names[0]]
-    return f"{first.experiment[:1].upper()}{first.experiment[1:]}."
+    return _own_experiment(open_names[0].names[0])
+
+
+def _own_experiment(name: str | None) -> str:
+    """Return the experiment of an effect as a sentence; nothing without an effect."""
+    text = catalogue()[name].experiment if name else ""
+    return f"{text[:1].upper()}{text[1:]}." if text else ""
 
 
 @dataclass(frozen=True)

@@ -33,9 +33,9 @@ class LoadGain(Effect):
     experiment = "hang known weights on the wheel, and compare the load channel with them"
     order = 8
 
-    def same_fault(self, data: Context) -> str:
+    def same_to_data(self, data: Context) -> tuple[str, str] | None:
         """At one load an offset of the channel is a factor."""
-        return "" if data.varies("normal_load") else "an offset of the normal load"
+        return None if data.varies("normal_load") else ("an offset of the normal load", "artefact")
 
     def misread(self, true: np.ndarray, p: Parameters) -> np.ndarray:
         """Return the recorded load."""

@@ -59,9 +59,10 @@ class Camber(Effect):
         """
         return not data.nominal.knows_camber and data.varies("camber")
 
-    def same_fault(self, data: Context) -> str:
+    def same_to_data(self, data: Context) -> tuple[str, str] | None:
         """A model that answers to camber answers to a channel with another gain."""
-        return "a wrong sign or gain of the camber channel" if data.nominal.knows_camber else ""
+        fault = "a wrong sign or gain of the camber channel", "artefact"
+        return fault if data.nominal.knows_camber else None
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the longitudinal friction where nothing brakes or drives."""

@@ -47,9 +47,9 @@ class StiffnessScale(Effect):
     )
     order = 40
 
-    def same_fault(self, data: Context) -> str:
+    def same_to_data(self, data: Context) -> tuple[str, str] | None:
         """The slip times a factor is the stiffness times this factor."""
-        return "a wrong gain of the slip channel"
+        return "a wrong gain of the slip channel", "artefact"
 
     def starts(self, data: Context) -> list[dict[str, float]]:
         """Both forms where they differ: at combined slip."""

@@ -58,9 +58,9 @@ class InflationPressure(Effect):
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
         return not _known(data) and data.varies("pressure")
 
-    def same_fault(self, data: Context) -> str:
+    def same_to_data(self, data: Context) -> tuple[str, str] | None:
         """A model that answers to pressure answers to a channel with another zero."""
-        return "a wrong zero or gain of the pressure channel" if _known(data) else ""
+        return ("a wrong zero or gain of the pressure channel", "artefact") if _known(data) else None
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""

@@ -306,13 +306,13 @@ def _causes(
 
 def _several_open(effects: Sequence[EffectReport]) -> bool:
     """Whether several causes have alternatives: then a note says once that they are not told apart."""
-    return sum(bool(e.alternatives or e.same_faults) for e in effects) > 1
+    return sum(bool(e.alternatives or e.same_to_data) for e in effects) > 1
 
 
 def _kinds(effect: EffectReport) -> set[str]:
     """Kinds of an effect and of what cannot be excluded instead of it."""
     kinds = {effect.kind, *(catalogue()[a].kind for a in effect.alternatives)}
-    return kinds | {"artefact"} if effect.same_faults else kinds
+    return kinds | {kind for _, kind in effect.same_to_data}
 
 
 def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
@@ -327,7 +327,8 @@ def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
 
 def _cause(effect: EffectReport, ranges: Ranges, not_apart: str) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
-    names = [effect.title, *(catalogue()[a].title for a in effect.alternatives), *effect.same_faults]
+    same = (words for words, _ in effect.same_to_data)
+    names = [effect.title, *(catalogue()[a].title for a in effect.alternatives), *same]
     stretches = stretches_of(effect, ranges)
     apart = not_apart if len(names) > 1 else ""
     seen = f"seen {stretches}" if stretches else ""

@@ -1,4 +1,4 @@
-"""What is the same to the data as a fault of the recording says so, wherever it is named."""
+"""What is the same to the data as something without a name says so, wherever it is named."""
 
 import pytest
 from weighed import all_but
@@ -21,7 +21,7 @@ def stiffer(tire, record):
 def test_a_slip_stiffness_may_be_a_gain_of_the_slip_channel(stiffer):
     (effect,) = stiffer.effects
     assert effect.name == "stiffness_scale"
-    assert effect.same_faults == (FAULT,)
+    assert effect.same_to_data == ((FAULT, "artefact"),)
     assert FAULT in stiffer.summary
     assert "which the model leaves out" not in stiffer.summary
 
@@ -34,7 +34,7 @@ def test_the_page_says_it_where_the_effect_is_described(stiffer):
 def test_camber_may_be_a_wrong_channel_only_if_the_file_answers_to_camber(tire, record, knows):
     file = tire.replace(PHY3=0.05 if knows else 0.0, PVY3=0.5 if knows else 0.0)
     recording = record().assign(camber=0.03)
-    said = catalogue()["camber"].same_fault(prepare(file, recording).data)
+    said = catalogue()["camber"].same_to_data(prepare(file, recording).data)
     assert bool(said) == knows
 
 
@@ -43,5 +43,17 @@ def test_a_gain_of_the_load_may_be_an_offset_of_it_only_at_one_load(tire, record
     recording = record()
     if loads == 1:
         recording = recording.assign(normal_load=float(recording["normal_load"].median()))
-    said = catalogue()["load_gain"].same_fault(prepare(tire, recording).data)
+    said = catalogue()["load_gain"].same_to_data(prepare(tire, recording).data)
     assert bool(said) == (loads == 1)
+
+
+def test_a_gain_of_the_force_may_be_a_tire_that_is_off_alike(tire, record):
+    """Another tire with friction and stiffness off by one factor was "a fault of the recording" at 0.99."""
+    recording = record(4)
+    louder = recording.assign(fy=1.12 * recording["fy"])
+    report = explain_mismatch(tire, louder, without=all_but("force_gain", "force_offset"))
+    assert [e.name for e in report.effects] == ["force_gain"]
+    assert report.verdict == "ambiguous"
+    assert "or a tire with friction and slip stiffness off by the same factor" in report.summary
+    assert "a fault of the recording or something that the model leaves out" in report.summary
+    assert "Next, hang a known weight on the load cell" in report.summary
