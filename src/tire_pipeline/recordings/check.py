@@ -264,7 +264,7 @@ def _unit_changes(frame: pd.DataFrame) -> list[Issue]:
 
 
 def _spikes(column: str, values: np.ndarray) -> list[Issue]:
-    found = spikes(values)
+    found = spikes(values, column)
     if not found.any():
         return []
     return [Issue("spikes", "warning", said_of_spikes(column, values, found), "left out", _runs(found))]
