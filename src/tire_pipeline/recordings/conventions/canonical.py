@@ -15,6 +15,7 @@ from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
+from tire_pipeline.recordings.conventions.slip_from_speeds import slip_from_speeds
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit, number_of
 from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
@@ -103,6 +104,7 @@ def canonical_frame(
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)
+    frame = slip_from_speeds(frame, notes)
     frame, repeats = _repeats(frame, notes)
     frame = frame.reset_index(drop=True)
     frame.attrs = {
