@@ -7,7 +7,7 @@ import pandas as pd
 
 from tire_pipeline.recordings.conventions.plausible import plausible, size
 
-_NEEDED = ("wheel_speed", "effective_radius", "speed")
+_SPEEDS_AND_RADIUS = ("wheel_speed", "effective_radius", "speed")
 
 
 def slip_from_speeds(frame: pd.DataFrame, notes: list[str]) -> pd.DataFrame:
@@ -32,9 +32,9 @@ def slip_from_speeds(frame: pd.DataFrame, notes: list[str]) -> pd.DataFrame:
     >>> slip_from_speeds(frame, [])["slip_ratio"].round(3).tolist()
     [-0.01, 0.0, -0.2]
     """
-    if "slip_ratio" in frame or not set(_NEEDED) <= set(frame):
+    if "slip_ratio" in frame or not set(_SPEEDS_AND_RADIUS) <= set(frame):
         return frame
-    turns, radius, road = (np.abs(frame[name].to_numpy(dtype=float)) for name in _NEEDED)
+    turns, radius, road = (np.abs(frame[name].to_numpy(dtype=float)) for name in _SPEEDS_AND_RADIUS)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         slip = turns * radius / road - 1.0
     slip = np.where(np.isfinite(slip), slip, np.nan)
