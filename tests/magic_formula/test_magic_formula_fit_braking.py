@@ -104,6 +104,14 @@ def test_a_mirrored_camber_is_no_success(sign, told):
     assert any("away from the side to which the wheel leans" in str(w.message) for w in caught) is told
 
 
+def test_braking_without_a_slip_ratio_is_no_free_rolling():
+    """Fy left 7% of the largest force, without a word."""
+    table = pd.concat([brake_sweeps(held) for held in (-0.105, -0.05, 0.0, 0.05, 0.105)], ignore_index=True)
+    with pytest.warns(PoorFitWarning, match="no slip ratio was measured, but fx changes, up to") as told:
+        fit_magic_formula(table.drop(columns="slip_ratio"), starts=2)
+    assert [str(each.message)[:3] for each in told] == ["fy:"]
+
+
 def brake_rounds(true, seed):
     """Sweeps of slip ratio at 0, -3 and -6 deg; the force is a sample late, and falls as the tread warms."""
     rng = np.random.default_rng(seed)

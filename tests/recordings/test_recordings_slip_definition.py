@@ -105,3 +105,16 @@ def test_speeds_that_no_wheel_has_give_none(tmp_path, factor):
     frame = braked().drop(columns="slip_ratio").eval(f"effective_radius = {factor} * effective_radius")
     frame.to_csv(tmp_path / "a.csv", index=False)
     assert "slip_ratio" not in read_recording(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("at", [None, 0.0])
+def test_braking_without_a_slip_ratio_is_said(at):
+    frame = braked().drop(columns=["slip_ratio", "wheel_speed"])
+    frame = frame if at is None else frame.assign(slip_ratio=at)
+    (issue,) = check_recording(frame)
+    assert issue.name == "braked_at_no_slip"
+    assert "no slip ratio was measured, but fx changes, up to 2.3" in issue.where
+    rolling = frame.assign(
+        fx=-0.014 * frame["normal_load"] - 0.3 * frame["normal_load"] * frame["slip_angle"]
+    )
+    assert check_recording(rolling) == []

@@ -316,7 +316,10 @@ def _without_force(output: str, points: Mapping[str, np.ndarray], forces: Mappin
     if not lacking:
         return ""
     names = " and ".join(lacking)
-    return f"{names} was not recorded, and {output} contains it: record it, too, or leave out such rows."
+    were, them = ("was", "it") if len(lacking) == 1 else ("were", "them")
+    return (
+        f"{names} {were} not recorded, and {output} contains {them}: record {them}, or leave out such rows."
+    )
 
 
 def _not_driven(output: str, seen: _Measured) -> str:
