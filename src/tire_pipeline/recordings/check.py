@@ -125,7 +125,7 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "no_normal_load",
                 "error",
                 "columns",
-                "the model needs the load: add a column normal_load in N",
+                frame.attrs.get("layout") or "the model needs the load: add a column normal_load in N",
             )
         )
     if "slip_angle" not in held and "slip_ratio" not in held:

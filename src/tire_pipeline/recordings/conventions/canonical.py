@@ -17,7 +17,7 @@ from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHE
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
 from tire_pipeline.recordings.conventions.slip_from_speeds import slip_from_speeds
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit, number_of
-from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
+from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel, one_column_a_load
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
@@ -101,6 +101,8 @@ def canonical_frame(
         )
     unnamed = {i.name: (units or {}).get(i.name, i.unit) for i, known, _ in chosen if known is None}
     notes += filter(None, [wheels, may_be(unnamed, columns)])
+    layout = one_column_a_load(strange, columns)
+    notes += [layout] if layout else []
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)
@@ -121,6 +123,7 @@ def canonical_frame(
         "notes": notes,
         "assumed": assumed,
         "axes_unclear": against,
+        "layout": layout,
     }
     return frame
 
