@@ -159,10 +159,10 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     header, units = _header_above(lines, line, fields, delimiter)
     if header is None:
         todo = "put a row with the channels' names first, with as many fields as the rows below it"
-        first = _fields(lines[line], delimiter)
-        if not is_number(first[0], decimal) and all(is_number(cell, decimal) for cell in first[1:]):
+        cells = _fields(lines[line], delimiter)
+        if not is_number(cells[0], decimal) and all(is_number(cell, decimal) for cell in cells[1:]):
             todo += (
-                f"; if {', '.join(first[1:4])} are loads, put one row for each point, with slip_angle, "
+                f"; if {', '.join(cells[1:4])} are loads, put one row for each point, with slip_angle, "
                 "normal_load and fy"
             )
         raise RecordingError(
