@@ -68,14 +68,13 @@ def fit_together(
     best = least(problem, bounds, [*starts, *_seeded(problem, bounds, seeds)])
     lowest, left = problem.misfit(best), problem.misfit(staged)
     wider = [_released(outcome, model, points) for outcome in outcomes]
-    if wider != outcomes:
-        more, limits = _problem(wider, model, points, measured)
-        ended = dict(zip(problem.names, best.tolist(), strict=True))
-        values = {n: v for o in wider for n, v in o.values.items()}
-        begin = np.array([ended.get(n, values[n]) for n in more.names])
-        drawn = starting_points(begin, limits, more.pull.spread, len(starts), options.rng)
+    more, limits = _problem(wider, model, points, measured)
+    if len(more.names) > len(problem.names) and not are_few(more):
+        typical = dict(zip(more.names, more.pull.centre, strict=True))
+        begin = list({**typical, **dict(zip(problem.names, best, strict=True))}.values())
+        drawn = starting_points(np.array(begin), limits, more.pull.spread, len(starts), options.rng)
         freest = least(more, limits, [*drawn, *_seeded(more, limits, seeds)])
-        if not are_few(more) and lowest > min((1.0 + SLACK) * more.misfit(freest), bar):
+        if lowest > min((1.0 + SLACK) * more.misfit(freest), bar):
             outcomes, problem, bounds, best = wider, more, limits, freest
             lowest, left = problem.misfit(best), np.inf
     if left <= min((1.0 + 0.5 * SLACK) * lowest, bar):
