@@ -104,6 +104,14 @@ def test_a_mirrored_camber_is_no_success(sign, told):
     assert any("away from the side to which the wheel leans" in str(w.message) for w in caught) is told
 
 
+def test_braking_without_a_slip_ratio_is_no_free_rolling():
+    """Fy left 7% of the largest force, without a word."""
+    table = pd.concat([brake_sweeps(held) for held in (-0.105, -0.05, 0.0, 0.05, 0.105)], ignore_index=True)
+    with pytest.warns(PoorFitWarning, match="no slip ratio was measured, but fx changes, up to") as told:
+        fit_magic_formula(table.drop(columns="slip_ratio"), starts=2)
+    assert [str(each.message)[:3] for each in told] == ["fy:"]
+
+
 def brake_rounds(true, seed):
     """Sweeps of slip ratio at 0, -3 and -6 deg; the force is a sample late, and falls as the tread warms."""
     rng = np.random.default_rng(seed)
@@ -131,3 +139,34 @@ def test_slip_angles_to_one_side_give_the_other_side_too(seed):
     there = {"slip_angle": np.radians([3.0, 6.0, 9.0]), "normal_load": true.value("FNOMIN")}
     found, expected = (m.forces(**there, limits="ignore", outputs=("fy",)).fy for m in (fit.model, true))
     assert found == pytest.approx(expected, rel=0.1)
+
+
+def bristles(slip_angle, slip_ratio, load):
+    """Forces and moment of bristles under a parabolic pressure, on a carcass that gives way sideways."""
+    place = np.linspace(-1.0, 1.0, 49)[:, None]
+    half = 0.055 * np.sqrt(load / 1100.0)
+    pressure = 0.75 * (1.0 - place**2) * (1.0 - 0.12 * place) * load / half
+    stiff = np.sin(2.0 * np.arctan(load / 1760.0)) / np.sin(2.0 * np.arctan(1.0 / 1.6)) / (2.0 * half**2)
+    lateral = -41_800.0 * stiff * np.tan(slip_angle + 0.003) / (1.0 + slip_ratio) * (place + 1.0) * half
+    ahead = 49_500.0 * stiff * slip_ratio / (1.0 + slip_ratio) * (place + 1.0) * half
+    friction = 2.4 * (load / 1100.0) ** -0.14 / (1.0 + 0.13 * np.hypot(np.tan(slip_angle), slip_ratio))
+    held = np.minimum(1.0, friction * pressure / np.maximum(np.hypot(lateral, ahead), 1e-9)) * half / 24.0
+    fx, fy = (ahead * held).sum(axis=0), (lateral * held).sum(axis=0) + 0.01 * load
+    return fx, fy, -(place * half * lateral * held).sum(axis=0) - 9e-6 * fy * fx
+
+
+def test_moments_of_braking_at_slip_angles_to_one_side_are_met():
+    """What the slip's sign decides stayed at 0 where all points together need it."""
+    sweep = np.interp(np.linspace(0.0, 3.5, 58), [0.0, 1.0, 2.75, 3.5], [0.0, -0.2, 0.15, 0.0])
+    held, load, ratio = (
+        x.ravel()
+        for x in np.meshgrid(np.radians([0.0, 3.0, 6.0]), [550.0, 1100.0, 1540.0], sweep, indexing="ij")
+    )
+    rng = np.random.default_rng(0)
+    fx, fy, mz = (
+        force + size * rng.standard_normal(load.size)
+        for force, size in zip(bristles(held, ratio, load), (20.0, 20.0, 0.6), strict=True)
+    )
+    table = pd.DataFrame({"slip_angle": held, "slip_ratio": ratio, "normal_load": load})
+    fit = fit_magic_formula(table.assign(fx=fx, fy=fy, mz=mz))
+    assert fit.relative_rms["mz"] < 0.0145  # the least is 0.0141; 0.0149 was left

@@ -11,6 +11,7 @@ import scipy.io
 from asammdf import MDF, Signal
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.recordings import read_recording
 
 DEG = np.pi / 180
@@ -202,3 +203,18 @@ def test_columns_of_a_vehicle_say_how_to_read_one_wheel(tmp_path):
     recording = read_recording(file, names=names)
     assert recording["fy"].iloc[3] == -27.0
     assert recording["normal_load"].iloc[0] == 3000.0
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "alpha [deg],2000,4000,6000",
+        "alpha [deg],Fy @ Fz=2000 N,Fy @ Fz=4000 N,Fy @ Fz=6000 N",
+        "alpha [deg],FY_2000,FY_4000,FY_6000",
+    ],
+)
+def test_a_table_of_one_column_a_load_is_told_which_layout_is_needed(tmp_path, header):
+    rows = [f"{a},{-300 * a},{-500 * a},{-600 * a}" for a in range(-12, 13)]
+    (tmp_path / "wide.csv").write_text("\n".join([header, *rows]))
+    with pytest.raises(RecordingError, match=r"are (one load each|loads).*put one row for each point, with"):
+        fit_magic_formula(read_recording(tmp_path / "wide.csv"))

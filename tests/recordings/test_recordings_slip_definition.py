@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.recordings import check_recording
+from tire_pipeline.recordings import check_recording, read_recording
 
 DEFINITIONS = {
     "wheel_speed x loaded_radius / speed - 1": lambda free, loaded: loaded - 1.0,
@@ -80,3 +80,41 @@ def test_a_force_against_the_slip_is_reported():
 def test_a_moment_with_an_arm_longer_than_the_wheel_is_reported(unit, found):
     frame = braked()
     assert names(frame.assign(mz=0.01 * unit * frame["fx"])) == found
+
+
+def test_a_file_with_speeds_and_the_rolling_radius_has_a_slip_ratio(tmp_path):
+    """Its brake ramps were fitted as if the wheel rolled freely: 19% of Mz was left, and no Fx was fitted."""
+    frame = braked()
+    names = {
+        "wheel_speed": "n [rad/s]",
+        "effective_radius": "rolling radius [m]",
+        "slip_angle": "alpha [rad]",
+    }
+    frame.drop(columns=["slip_ratio", "loaded_radius"]).rename(columns=names).to_csv(tmp_path / "a.csv")
+    read = read_recording(tmp_path / "a.csv")
+    assert read["slip_ratio"].to_numpy() == pytest.approx(frame["slip_ratio"].to_numpy(), abs=3e-3)
+    assert any(
+        "computed as wheel_speed x effective_radius / speed - 1" in note for note in read.attrs["notes"]
+    )
+    assert list(read)[:4] == ["time", "slip_angle", "slip_ratio", "normal_load"]
+
+
+@pytest.mark.parametrize("factor", [60.0 / (2.0 * np.pi), 2750.0])
+def test_speeds_that_no_wheel_has_give_none(tmp_path, factor):
+    """Revolutions per minute without their unit; the flat belt's radius, which is up to 3,755 m."""
+    frame = braked().drop(columns="slip_ratio").eval(f"effective_radius = {factor} * effective_radius")
+    frame.to_csv(tmp_path / "a.csv", index=False)
+    assert "slip_ratio" not in read_recording(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("at", [None, 0.0])
+def test_braking_without_a_slip_ratio_is_said(at):
+    frame = braked().drop(columns=["slip_ratio", "wheel_speed"])
+    frame = frame if at is None else frame.assign(slip_ratio=at)
+    (issue,) = check_recording(frame)
+    assert issue.name == "braked_at_no_slip"
+    assert "no slip ratio was measured, but fx changes, up to 2.3" in issue.where
+    rolling = frame.assign(
+        fx=-0.014 * frame["normal_load"] - 0.3 * frame["normal_load"] * frame["slip_angle"]
+    )
+    assert check_recording(rolling) == []

@@ -24,13 +24,14 @@ def test_a_spike_is_found_and_nothing_else(size, length, row):
     assert np.flatnonzero(spikes(x)).tolist() == list(range(row, row + length))
 
 
+@pytest.mark.parametrize("name", ["", "slip_angle"])
 @pytest.mark.parametrize("share", [0.01, 0.05])
-def test_a_line_that_drops_out_to_one_value_is_found_in_a_fast_sweep(share):
+def test_a_line_that_drops_out_to_one_value_is_found_in_a_fast_sweep(share, name):
     """20 samples a second of a slip that sweeps 10 deg in 3 s: a zero is hardly farther off than it moves."""
     rng = np.random.default_rng(1)
     slip = np.radians(10.0) * np.sin(0.5 * np.arange(0.0, 60.0, 0.05)) + 1e-4 * rng.standard_normal(1200)
     lost = (rng.random(slip.size) < share) & (np.abs(slip) > np.radians(4.0))
-    assert np.array_equal(spikes(np.where(lost, 0.0, slip)), lost)
+    assert np.array_equal(spikes(np.where(lost, 0.0, slip), name), lost)
 
 
 @pytest.mark.parametrize("row", [0, TIME.size - 1])
@@ -67,6 +68,20 @@ def test_a_dropout_of_any_length_counts_once(length):
 )
 def test_what_a_channel_does_by_itself_is_no_spike(x):
     assert not spikes(x).any()
+
+
+@pytest.mark.parametrize("angles", [(4.0,), (-4.0, -2.0, 2.0, 4.0), (3.0, 3.0, 3.0, 3.0, -3.0)])
+def test_set_points_beside_sweeps_are_no_spikes(angles):
+    """A part of each held angle, joined to sweeps without the ramps between: 38% of a file was left out."""
+    steps = np.radians(np.r_[0.0:12.0:0.08, 12.0:-12.0:-0.08, -12.0:0.01:0.08])
+    held = [part for angle in angles for part in (np.zeros(5), np.full(400, np.radians(angle)))]
+    assert not spikes(np.concatenate([np.tile(steps, 3), *held]), "slip_angle").any()
+
+
+def test_a_spike_of_what_a_rig_sets_is_still_found():
+    slip = np.radians(10.0) * np.sin(0.5 * TIME)
+    slip[[300, 1500, 1501]] = 0.9, -1.2, -1.2
+    assert np.flatnonzero(spikes(slip, "slip_angle")).tolist() == [300, 1500, 1501]
 
 
 def test_missing_values_stay_missing_and_hide_no_spike():

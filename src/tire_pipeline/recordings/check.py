@@ -125,7 +125,7 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "no_normal_load",
                 "error",
                 "columns",
-                "the model needs the load: add a column normal_load in N",
+                frame.attrs.get("layout") or "the model needs the load: add a column normal_load in N",
             )
         )
     if "slip_angle" not in held and "slip_ratio" not in held:
@@ -264,7 +264,7 @@ def _unit_changes(frame: pd.DataFrame) -> list[Issue]:
 
 
 def _spikes(column: str, values: np.ndarray) -> list[Issue]:
-    found = spikes(values)
+    found = spikes(values, column)
     if not found.any():
         return []
     return [Issue("spikes", "warning", said_of_spikes(column, values, found), "left out", _runs(found))]

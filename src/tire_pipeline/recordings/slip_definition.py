@@ -11,14 +11,13 @@ import pandas as pd
 from tire_pipeline.magic_formula.fitting.least_squares.search import rows_of_one
 from tire_pipeline.magic_formula.fitting.setup.measured import locked_parts
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
+from tire_pipeline.magic_formula.fitting.setup.unlike_tires import MOST_ROLLING_RESISTANCE, braked_at_no_slip
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.physical_signs import FEWEST_ROWS, STRAIGHT
 
 Array = np.ndarray
 
-_MOST_ROLLING_RESISTANCE = 0.05
-"""Over the load; tires of cars and trucks have 0.005 to 0.02, soft or flat ones a little more."""
 _SURE = 2.0
 """Standard errors."""
 _BY_EFFECTIVE_RADIUS, _BY_LOADED_RADIUS, _BY_UNKNOWN_RADIUS = "effective_radius", "loaded_radius", ""
@@ -49,6 +48,8 @@ _SLIP_FORMS = (
 def slip_ratio_defined_otherwise(frame: pd.DataFrame) -> list[Issue]:
     """Report a slip ratio that does not count from free rolling, over the road's speed, driving positive.
 
+    One that is missing is reported where the wheel braked or was driven.
+
     Parameters
     ----------
     frame : DataFrame
@@ -56,9 +57,23 @@ def slip_ratio_defined_otherwise(frame: pd.DataFrame) -> list[Issue]:
     """
     held = pd.DataFrame(frame, copy=False).items()  # without attrs: pandas copies them
     columns = {str(n): x.to_numpy(dtype=float) for n, x in held if pd.api.types.is_numeric_dtype(x)}
-    if "slip_ratio" not in columns or locked_parts(frame, columns["slip_ratio"]):
+    slip = columns.get("slip_ratio")
+    if slip is None or not np.any(slip):
+        return _braked(columns)
+    if locked_parts(frame, slip):
         return []
     return _by_speeds(columns) or _by_force(columns)
+
+
+def _braked(columns: Mapping[str, Array]) -> list[Issue]:
+    """Report a wheel that braked without a slip ratio: it would count as one that rolls freely."""
+    if not {"fx", "normal_load"} <= set(columns):
+        return []
+    where = braked_at_no_slip(columns["normal_load"], columns["fx"])
+    todo = (
+        "record slip_ratio, or wheel_speed and effective_radius; or leave out the rows of braking and driving"
+    )
+    return [Issue("braked_at_no_slip", "warning", where, todo)] if where else []
 
 
 def _by_speeds(columns: Mapping[str, Array]) -> list[Issue]:
@@ -154,7 +169,7 @@ def _by_force(columns: Mapping[str, Array]) -> list[Issue]:
         return [Issue("fx_of_other_sign", "warning", "fx, which falls with slip_ratio", todo)]
     freedom = slip.size / rows_of_one(left)
     error = float(np.sqrt(left @ left / slip.size / freedom * np.linalg.inv(line.T @ line / slip.size)[0, 0]))
-    if abs(level) - _SURE * error <= _MOST_ROLLING_RESISTANCE:
+    if abs(level) - _SURE * error <= MOST_ROLLING_RESISTANCE:
         return []
     where = f"fx, {in_digits(float(level))} of the load at a slip_ratio of 0"
     todo = (

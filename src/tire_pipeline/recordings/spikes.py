@@ -24,7 +24,7 @@ _WINDOW = 2 * LONGEST_SPIKE + 1
 """Samples of the running median, which does not follow a spike."""
 
 
-def spikes(x: Array) -> Array:
+def spikes(x: Array, name: str = "") -> Array:
     """Return which samples of a channel are spikes.
 
     A value that is repeated exactly counts once, so that a dropout of any length is one. Where the channel
@@ -32,10 +32,15 @@ def spikes(x: Array) -> Array:
     off is the geometric mean of how much the channel moves nearby, and of what one sample in ten is off.
     Where most of those that are off by more than the latter have one value, a line drops out to it.
 
+    What a rig sets (slip, camber, load, speed, pressure) stays at one value between steps, as no measured
+    force does: there a value that lasts is a dropout only if it comes again, and samples are counted.
+
     Parameters
     ----------
     x : ndarray, shape (n,)
         One channel in any unit; NaN where nothing was recorded.
+    name : str
+        Its name, if it is known.
 
     Returns
     -------
@@ -51,10 +56,14 @@ def spikes(x: Array) -> Array:
     around = 2 * _WINDOW + 1
     moves = scipy.ndimage.maximum_filter(middle, around) - scipy.ndimage.minimum_filter(middle, around)
     off = np.abs(values - middle)
-    usual = max(float(np.quantile(off, 0.9)), float(np.median(np.abs(np.diff(values)))))
+    of_sample, is_set = np.cumsum(new) - 1, name in INPUT_CHANNELS
+    share_off = float(np.quantile(off[of_sample] if is_set else off, 0.9))
+    usual = max(share_off, float(np.median(np.abs(np.diff(values)))))
     alone = off > STANDS_OUT * np.sqrt(np.maximum(moves, usual) * usual)
+    if is_set:
+        alone &= np.bincount(of_sample) <= LONGEST_SPIKE
     alone |= _dropped_out(values, off > STANDS_OUT * usual)
-    found[known] = alone[np.cumsum(new) - 1]
+    found[known] = alone[of_sample]
     return found
 
 
@@ -106,7 +115,7 @@ def without_spikes(
     without, remarks = {}, []
     for name in (n for n in channels if n in recording):
         x = recording[name].to_numpy(dtype=float, na_value=np.nan)
-        found = spikes(x)
+        found = spikes(x, name)
         if found.any():
             without[name] = np.where(found, np.nan, x)
             remarks.append(f"{said_of_spikes(name, x, found)} (left out)")

@@ -25,7 +25,7 @@ from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_p
 from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
-from tire_pipeline.magic_formula.fitting.setup.unlike_tires import unlike_tires
+from tire_pipeline.magic_formula.fitting.setup.unlike_tires import braked_at_no_slip, unlike_tires
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
@@ -134,6 +134,11 @@ def fit_magic_formula(
     points, forces, left_out, said = columns(recording, version)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
     unlike, small = unlike_tires(recording, points, base, start is not None or nominal_load is not None)
+    if not unlike and "fx" in forces and not points["slip_ratio"].any():
+        braked = braked_at_no_slip(points["normal_load"], forces["fx"])
+        unlike = (
+            f"{braked}: record the slip of braking and driving, or leave out such rows." if braked else ""
+        )
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)

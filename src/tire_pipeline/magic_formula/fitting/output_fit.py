@@ -16,7 +16,7 @@ from tire_pipeline.magic_formula.fitting.least_squares.search import (
     part_of,
 )
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
-from tire_pipeline.magic_formula.fitting.setup.coverage import open_coefficients
+from tire_pipeline.magic_formula.fitting.setup.coverage import noise_alone, open_coefficients
 from tire_pipeline.magic_formula.fitting.setup.starts import bounds_of, starting_points
 from tire_pipeline.magic_formula.fitting.setup.typical import Pull, pull
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome
@@ -63,12 +63,20 @@ def fit_together(
     problem, bounds = _problem(outcomes, model, points, measured)
     if are_few(problem):
         return before
-    staged = np.concatenate([list(outcome.values.values()) for outcome in outcomes])
+    staged = _values_of(outcomes)
     starts = starting_points(staged, bounds, problem.pull.spread, min(_STARTS, options.starts), options.rng)
-    typical = dict(zip(problem.names, problem.pull.centre, strict=True))
-    more = [[seed.coefficients.get(n, typical[n]) for n in problem.names] for seed in seeds]
-    best = least(problem, bounds, [*starts, *(np.clip(values, *bounds) for values in more)])
+    best = least(problem, bounds, [*starts, *_seeded(problem, bounds, seeds)])
     lowest, left = problem.misfit(best), problem.misfit(staged)
+    wider = [_released(outcome, model, points) for outcome in outcomes]
+    more, limits = _problem(wider, model, points, measured)
+    if len(more.names) > len(problem.names) and not are_few(more):
+        typical = dict(zip(more.names, more.pull.centre, strict=True))
+        begin = list({**typical, **dict(zip(problem.names, best, strict=True))}.values())
+        drawn = starting_points(np.array(begin), limits, more.pull.spread, len(starts), options.rng)
+        freest = least(more, limits, [*drawn, *_seeded(more, limits, seeds)])
+        if lowest > min((1.0 + SLACK) * more.misfit(freest), bar):
+            outcomes, problem, bounds, best = wider, more, limits, freest
+            lowest, left = problem.misfit(best), np.inf
     if left <= min((1.0 + 0.5 * SLACK) * lowest, bar):
         return before
     most = max(min((1.0 + SLACK) * lowest, bar), lowest)
@@ -82,11 +90,38 @@ def fit_together(
     ]
 
 
+def _values_of(outcomes: Sequence[Outcome]) -> np.ndarray:
+    """Return the values of all coefficients of the stages."""
+    return np.concatenate([list(outcome.values.values()) for outcome in outcomes])
+
+
+def _seeded(problem: Problem, bounds: Bounds, seeds: Sequence[TireModel]) -> list[np.ndarray]:
+    """Return the values that other models have."""
+    typical = dict(zip(problem.names, problem.pull.centre, strict=True))
+    values = [[seed.coefficients.get(n, typical[n]) for n in problem.names] for seed in seeds]
+    return [np.clip(each, *bounds) for each in values]
+
+
 def _widened(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray]) -> Outcome:
     """Return a stage that also frees what only all points together determine, such as pressure."""
     kept = {name: value for group in outcome.kept.values() for name, value in group.items()}
     closed = open_coefficients(tuple(kept), points, model.value("FNOMIN"))
     more = {n: v for n, v in kept.items() if not any(n in group for group in closed.values())}
+    return _freed(outcome, more)
+
+
+def _released(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray]) -> Outcome:
+    """Return a stage that also frees what the ranges cannot determine, but the rows may need."""
+    kept = {name: value for group in outcome.kept.values() for name, value in group.items()}
+    silent = noise_alone(tuple(kept), points, model.value("FNOMIN"))
+    more = {n: v for n, v in kept.items() if n not in silent}
+    released = {reason: [n for n in group if n in more] for reason, group in outcome.kept.items()}
+    freed = _freed(outcome, more)
+    return replace(freed, released={**outcome.released, **{r: ns for r, ns in released.items() if ns}})
+
+
+def _freed(outcome: Outcome, more: Mapping[str, float]) -> Outcome:
+    """Return a stage that also frees some of the coefficients that it kept, from these values on."""
     if not more:
         return outcome
     low, high = bounds_of(list(more), more)

@@ -15,8 +15,9 @@ from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
 from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
+from tire_pipeline.recordings.conventions.slip_from_speeds import slip_from_speeds
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit, number_of
-from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
+from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel, one_column_a_load
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
@@ -100,9 +101,12 @@ def canonical_frame(
         )
     unnamed = {i.name: (units or {}).get(i.name, i.unit) for i, known, _ in chosen if known is None}
     notes += filter(None, [wheels, may_be(unnamed, columns)])
+    layout = one_column_a_load(strange, columns)
+    notes += [layout] if layout else []
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)
+    frame = slip_from_speeds(frame, notes)
     frame, repeats = _repeats(frame, notes)
     frame = frame.reset_index(drop=True)
     frame.attrs = {
@@ -119,6 +123,7 @@ def canonical_frame(
         "notes": notes,
         "assumed": assumed,
         "axes_unclear": against,
+        "layout": layout,
     }
     return frame
 

@@ -106,9 +106,26 @@ CANONICAL: tuple[Channel, ...] = (
 # Channels that are not canonical but whose dimension is known, so that their unit can be brought
 # to SI. They keep their own name unless one is given here.
 FURTHER: tuple[Channel, ...] = (
-    Channel("wheel_speed", "rate", "rad/s", ("WHROTSPD", "N", "omega", "wheel rotation speed")),
+    Channel(
+        "wheel_speed",
+        "rate",
+        "rad/s",
+        (
+            "WHROTSPD",
+            "N",
+            "omega",
+            "wheel rotation speed",
+            "wheel rotational speed",
+            "wheel angular velocity",
+        ),
+    ),
     Channel("loaded_radius", "length", "m", ("RL", "DSTGRWHC", "LOADRAD")),
-    Channel("effective_radius", "length", "m", ("RE", "KROLRAD")),
+    Channel(
+        "effective_radius",
+        "length",
+        "m",
+        ("RE", "KROLRAD", "rolling radius", "effective rolling radius", "dynamic rolling radius"),
+    ),
     Channel("tread_temperature_inner", "temperature", "degC", ("TSTI",)),
     Channel("tread_temperature_outer", "temperature", "degC", ("TSTO",)),
     Channel("ambient_temperature", "temperature", "degC", ("AMBTMP", "AMBITEMP")),

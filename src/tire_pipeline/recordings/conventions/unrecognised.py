@@ -6,11 +6,14 @@ import re
 import shlex
 from collections.abc import Iterable, Mapping
 
+from tire_pipeline.channels import FORCE_OF_SLIP
+from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _MOST = 8
 _OF_A_WHEEL = re.compile(r"(.+?)[ _.-]+(FL|FR|RL|RR|LF|RF|LR)", re.IGNORECASE)
+_NUMBER_IN_NAME = re.compile(r"\d+(?:[.,]\d+)?")
 _OWN_KIND = [
     c
     for c in CANONICAL
@@ -74,3 +77,35 @@ def of_a_wheel(columns: Iterable[str]) -> str:
     first, named = next(iter(wheels.items()))
     stated = " ".join(f"--name {shlex.quote(f'{name}={channel}')}" for name, channel in named.items())
     return f"columns end with a wheel ({', '.join(wheels)}); to read {first}: {stated}"
+
+
+def one_column_a_load(columns: Iterable[str], known: Iterable[str]) -> str:
+    """Return the layout that is needed if a table may have one column for each load; "" if it has a load.
+
+    Parameters
+    ----------
+    columns : iterable of str
+        Those that are not recognised.
+    known : iterable of str
+        Channels that the recording has.
+
+    Examples
+    --------
+    >>> one_column_a_load(["Fy @ Fz=2000 N", "Fy @ Fz=4000 N"], known=["slip_angle"])
+    'if Fy @ Fz=2000 N, Fy @ Fz=4000 N are one load each: put one row for each point, with ...'
+    """
+    known = set(known)
+    slips = [slip for slip in FORCE_OF_SLIP if slip in known]
+    if "normal_load" in known or not slips:
+        return ""
+    alike: dict[str, list[str]] = {}
+    for name in columns:
+        if _NUMBER_IN_NAME.search(name):
+            alike.setdefault(_NUMBER_IN_NAME.sub("#", name), []).append(name)
+    several = max(alike.values(), key=len, default=[])
+    if len(several) < 2:
+        return ""
+    return (
+        f"if {first_of(several, _MOST)} are one load each: put one row for each point, with {slips[0]}, "
+        f"normal_load and {FORCE_OF_SLIP[slips[0]]}"
+    )

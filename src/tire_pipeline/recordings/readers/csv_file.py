@@ -158,10 +158,17 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     fields, _, line = found[delimiter, decimal]
     header, units = _header_above(lines, line, fields, delimiter)
     if header is None:
+        todo = "put a row with the channels' names first, with as many fields as the rows below it"
+        cells = _fields(lines[line], delimiter)
+        if not is_number(cells[0], decimal) and all(is_number(cell, decimal) for cell in cells[1:]):
+            todo += (
+                f"; if {', '.join(cells[1:4])} are loads, put one row for each point, with slip_angle, "
+                "normal_load and fy"
+            )
         raise RecordingError(
             f"no header with {fields} names above the first row of numbers",
             where=f"{path}:{line + 1}",
-            todo="put a row with the channels' names first, with as many fields as the rows below it",
+            todo=todo,
         )
     comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
     return _TableLayout(delimiter, decimal, header, units, line, encoding, comments)

@@ -239,7 +239,7 @@ def _away_from_the_lean(points: Mapping[str, np.ndarray], fy: np.ndarray) -> boo
 
 def _negative_trail(model: TireModel, seen: _Measured) -> bool:
     """Whether the moment goes with the slip angle as the side force does; small slips have to be known."""
-    if not seen.slip.size or _without_small_slips(seen):
+    if not seen.slip.size or _without_small_slips(seen) or not _swept("slip_angle", seen.slip):
         return False
     either = np.array([-_SMALL_SLIP, _SMALL_SLIP])
     load = float(np.median(seen.load))
@@ -316,7 +316,10 @@ def _without_force(output: str, points: Mapping[str, np.ndarray], forces: Mappin
     if not lacking:
         return ""
     names = " and ".join(lacking)
-    return f"{names} was not recorded, and {output} contains it: record it, too, or leave out such rows."
+    were, them = ("was", "it") if len(lacking) == 1 else ("were", "them")
+    return (
+        f"{names} {were} not recorded, and {output} contains {them}: record {them}, or leave out such rows."
+    )
 
 
 def _not_driven(output: str, seen: _Measured) -> str:
@@ -326,7 +329,7 @@ def _not_driven(output: str, seen: _Measured) -> str:
         return ""
     return (
         f"{name} was not swept; {output} is what ply steer, conicity, camber and the other slip make of it. "
-        f"The file says nothing of {output}: record sweeps of {name}."
+        f"The file says nothing of {output} over {name}: record sweeps of it."
     )
 
 

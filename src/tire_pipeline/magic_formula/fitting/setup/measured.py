@@ -45,7 +45,8 @@ def columns(
     """
     check_table(recording)
     if "normal_load" not in recording:
-        raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
+        todo = recording.attrs.get("layout") or "name the load's column normal_load, in newtons"
+        raise RecordingError("there is no normal_load", todo=todo)
     wanted = [name for name in FORCE_CHANNELS if name in recording]
     if not wanted:
         raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")

@@ -1,4 +1,4 @@
-"""Loads, pressures and radii of a recording that no tire has: their units."""
+"""What no tire has of a recording: loads, pressures and radii, and a force fx at no slip."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from tire_pipeline.channels import LARGEST_LOAD_OF_MODEL_CARS, TIRE_PRESSURES, T
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.small_loads import in_another_unit_as
+
+MOST_ROLLING_RESISTANCE = 0.05
+"""Over the load; tires of cars and trucks have 0.005 to 0.02, soft or flat ones a little more."""
 
 
 def unlike_tires(
@@ -50,6 +53,22 @@ def unlike_tires(
     if load < LARGEST_LOAD_OF_MODEL_CARS and not stated:
         return "", [f"a load of {in_digits(load)} N is a model car's: check the unit if this is another tire"]
     return "", []
+
+
+def braked_at_no_slip(load: np.ndarray, fx: np.ndarray) -> str:
+    """Return that the wheel braked or was driven in a recording that says nowhere by which slip, or nothing.
+
+    Parameters
+    ----------
+    load, fx : ndarray
+        Without a number in some rows.
+    """
+    good = np.isfinite(fx) & (np.abs(load) > 0.0)
+    share = fx[good] / np.abs(load[good])
+    if not share.size or float(np.std(share)) <= MOST_ROLLING_RESISTANCE:
+        return ""
+    most = in_digits(float(np.quantile(np.abs(share), 0.98)))
+    return f"no slip ratio was measured, but fx changes, up to {most} of the load"
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:
