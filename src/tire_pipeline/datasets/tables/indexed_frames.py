@@ -11,6 +11,7 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.datasets.storage.files_at import files_at
+from tire_pipeline.datasets.storage.sealed import json_as_sealed, sealed_json
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import as_parquet, from_parquet
 
@@ -39,12 +40,18 @@ def write_parts(
         files.write(name, content)
         digest = hashlib.sha256(content).hexdigest()
         parts.append({"name": name, "sha256": digest, "rows": len(frame), **more(frame)})
-    files.write(index, json.dumps({"parts": parts}).encode())
+    files.write(index, sealed_json(json.dumps({"parts": parts}).encode()))
 
 
 def parts_of(folder: str, index: str) -> Iterator[tuple[dict[str, Any], Callable[[], pd.DataFrame]]]:
     """Yield what the index says of each part, and the function that reads it."""
-    for part in json.loads(files_at(folder).read(index))["parts"]:
+    where = f"{folder}/{index}"
+    content = json_as_sealed(files_at(folder).read(index), where, _RUN_AGAIN)
+    try:
+        parts = json.loads(content)["parts"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise DomainError("this list of a table's parts is damaged", where=where, todo=_RUN_AGAIN) from error
+    for part in parts:
         yield part, partial(read_part, folder, part["name"], part["sha256"], _RUN_AGAIN)
 
 
