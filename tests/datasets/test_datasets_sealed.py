@@ -65,7 +65,7 @@ def test_a_flip_within_a_page_is_told_by_the_file_with_what_to_do(tmp_path):
         dataset.load()
     assert str(raised.value).splitlines()[-1] == (
         f"{path}: this stored table is damaged -> it is not used: run the pipeline that makes "
-        "'features' again (or `kedro run`); a new version takes its place"
+        "'features' (or `kedro run`); a new version takes its place"
     )
 
 
@@ -107,7 +107,7 @@ def test_no_flip_in_the_list_of_parts_gives_another_table(tmp_path):
     for at in range(len(content)):
         path.write_bytes(_flipped(content, at, at % 8))
         found = _loaded(lambda: [load() for load in dataset.load()])
-        assert "damaged -> run again" in found if isinstance(found, str) else _same(found, whole)
+        assert "damaged -> it is not used" in found if isinstance(found, str) else _same(found, whole)
     path.write_bytes(json.dumps({"parts": json.loads(content)["parts"]}).encode())
     assert len(dataset.load()) == 2, "as a former version stored it"
 

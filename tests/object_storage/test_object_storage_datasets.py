@@ -9,7 +9,6 @@ import subprocess
 import sys
 from functools import partial
 
-import pandas as pd
 import pytest
 from kedro.io import DatasetError, Version
 from moto_keys import KEY
@@ -19,7 +18,6 @@ from tire_pipeline.datasets import (
     HtmlPageDataset,
     IngestStoreDataset,
     MadeFilesDataset,
-    ParquetTableDataset,
     RecordingFolderDataset,
     ReleaseDataset,
     StateDataset,
@@ -56,20 +54,6 @@ def test_one_of_two_writers_wins(folder):
     with pytest.raises(ConflictError):
         folder.replace("note", b"5", None)
     assert (content, folder.read("note")) == (b"1", b"3")
-
-
-def test_a_bit_that_flips_in_a_stored_table_is_told_by_the_object(folder):
-    table = pd.DataFrame({"file": ["A/1.tir", "A/2.tir"], "PCY1": [1.3, 1.4]})
-    dataset = ParquetTableDataset(filepath=f"{folder}/features.parquet", version=Version(None, "1"))
-    dataset.save(table)
-    pd.testing.assert_frame_equal(dataset.load(), table)
-    name = "features.parquet/1/features.parquet"
-    content = folder.read(name)
-    folder.write(name, content[:40] + bytes([content[40] ^ 4]) + content[41:])
-    with pytest.raises(
-        DatasetError, match=rf"{folder}/{name}: this stored table is damaged -> it is not used"
-    ):
-        dataset.load()
 
 
 def test_keys_are_neither_taken_from_an_address_nor_told(bucket, monkeypatch):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import io
 import re
+from pathlib import PurePath
 
 import pandas as pd
 
@@ -17,6 +18,12 @@ _BLANK = b"0" * 64
 _IN_PARQUET = b"tire_pipeline.sha256\x18\x40"
 """Key of the hash among a Parquet file's metadata, and what stands before a text of 64 bytes there."""
 _IN_JSON = re.compile(rb',"sha256":"([0-9a-f]{64})"\}\Z')
+
+
+def made_again(name: str) -> str:
+    """What to do if the newest version of a dataset is damaged."""
+    maker = f"the pipeline that makes {PurePath(name).stem!r}"
+    return f"it is not used: run {maker} (or `kedro run`); a new version takes its place"
 
 
 def sealed_parquet(frame: pd.DataFrame) -> bytes:

@@ -6,7 +6,7 @@ import pandas as pd
 from kedro_datasets._typing import TablePreview
 
 from tire_pipeline.datasets.storage.files_at import files_at
-from tire_pipeline.datasets.storage.sealed import parquet_as_sealed, sealed_parquet
+from tire_pipeline.datasets.storage.sealed import made_again, parquet_as_sealed, sealed_parquet
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
 from tire_pipeline.pages.visible_text import visible_texts
 
@@ -64,11 +64,7 @@ class ParquetTableDataset(VersionedDataset[pd.DataFrame]):
     def load(self) -> pd.DataFrame:
         """The table as it was saved; so far, what a former version of this project stored, too."""
         folder, name = self._place(self._get_load_path())
-        todo = (
-            f"it is not used: run the pipeline that makes {self._filepath.stem!r} again (or `kedro run`); "
-            "a new version takes its place"
-        )
-        return parquet_as_sealed(files_at(folder).read(name), f"{folder}/{name}", todo)
+        return parquet_as_sealed(files_at(folder).read(name), f"{folder}/{name}", made_again(name))
 
     def preview(self, nrows: int = 5) -> TablePreview:
         """Return the first rows.
