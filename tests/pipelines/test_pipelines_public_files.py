@@ -228,6 +228,9 @@ def test_what_is_said_of_the_fleets_files(together):
     assert judged.loc[far, "bias_band"].isna().all()
     assert (judged.loc[far, "verdict"] == "refused").all()
     assert judged.loc[far, "reason"].str.contains("outside of what D has measured").all()
+    no_figure = report["verdict"].isin(["refused", "unknown supplier"])
+    assert report.loc[no_figure, ["expected_rms_ratio", "harm_probability"]].isna().all(axis=None)
+    assert {together.page.rows[file]["ratio"] for file in report.index[no_figure]} == {None}
 
 
 def test_what_is_said_of_a_translated_file_agrees_everywhere(together):

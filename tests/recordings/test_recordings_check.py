@@ -71,6 +71,7 @@ def in_two_signs():
         (cut(good(), time=(7, 0.06)), "repeated_time_stamps", "error", ((7, 7),)),
         (good().drop(index=range(100, 150)), "gaps_in_time", "warning", ((100, 100),)),
         (good().assign(time=lambda d: 1000.0 * d.time), "long_time_steps", "warning", ()),
+        (good().assign(time=lambda d: 46_000.0 + d.time / 86_400.0), "short_time_steps", "warning", ()),
         (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
         (good().assign(fx=np.nan), "empty_channel", "warning", ()),
         (in_turn(good(), "fy", "slip_angle"), "few_whole_rows", "error", ()),

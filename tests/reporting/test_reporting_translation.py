@@ -130,13 +130,13 @@ def test_what_is_unusual_in_a_file_is_counted():
 def test_an_unknown_supplier_is_called_by_its_folder():
     report = pd.DataFrame(
         {
-            "file": ["lab/1.tir", "2.tir", "C/3.tir"],
-            "source": ["unknown", "unknown", "C"],
-            "verdict": ["unknown supplier", "unknown supplier", "refused"],
+            "file": ["lab/1.tir", "2.tir", "C/3.tir", "lab/4.tir"],
+            "source": ["unknown", "unknown", "C", "unknown"],
+            "verdict": ["unknown supplier", "unknown supplier", "refused", "refused"],
         }
     )
     suppliers = {row[0]: row[ROW_COLUMNS.index("supplier")] for row in in_order(listed([report], set()))}
-    assert suppliers == {"lab/1.tir": "lab", "2.tir": "unknown", "C/3.tir": "C"}
+    assert suppliers == {"lab/1.tir": "lab", "2.tir": "unknown", "C/3.tir": "C", "lab/4.tir": "lab"}
 
 
 @pytest.mark.parametrize("count", [1, 2, 31, 200])

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, OVERFLOWS, TOO_SMALL, dedupe_and_filter
+from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, OVERFLOWS, TOO_SMALL, dedupe_and_filter, from_models
 
 
 def table(rows: int = 6, categories: str = "AAABBB") -> pd.DataFrame:
@@ -116,3 +116,9 @@ def test_every_row_is_kept_or_reported_once():
 def test_a_feature_that_no_file_has():
     with pytest.raises(DomainError, match="no file has a value for PKY9"):
         dedupe_and_filter(table(), 1, ["PCY1", "PKY9"])
+
+
+def test_a_table_without_files_is_not_said_to_lack_coefficients():
+    """An empty folder was answered by the advice to choose another representation."""
+    with pytest.raises(DomainError, match=r"there is no file to learn from -> put \.tir files into"):
+        dedupe_and_filter(from_models([]), 1, ["PKY1"])

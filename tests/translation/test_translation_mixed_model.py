@@ -130,10 +130,14 @@ def test_verdicts(paired, hidden):
     rows.iloc[3, rows.columns.get_loc("PKY1")] *= 3.0
     rows.iloc[4, rows.columns.get_loc("PDY1")] = np.nan
     result = paired.translation(rows)
+    unchanged = [1, 2, 3, 4]
     assert list(result.report["verdict"]) == [TRANSLATED, UNKNOWN, UNBIASED, REFUSED, REFUSED]
     assert "outside of what D has measured" in result.report["reason"].iloc[3]
+    assert result.report["distance"].iloc[3] > 1.0
+    figures = result.report[["expected_rms_ratio", "harm_probability"]]
+    assert figures.iloc[0].between(0.0, 1.0).all()
+    assert figures.iloc[unchanged].isna().all(axis=None), "no error figure where nothing is translated"
     assert result.bands["fy"].middle.shape[0] == 5
-    unchanged = [1, 2, 3, 4]
     pd.testing.assert_frame_equal(result.table.iloc[unchanged], rows.iloc[unchanged])
 
 
@@ -194,6 +198,7 @@ def test_a_tire_that_was_impossible_before_is_refused_but_for_its_curvature(pair
     ).iloc[0]
     assert judged["verdict"] == verdict
     assert ("no physical tire found: " in judged["reason"]) == (verdict == REFUSED)
+    assert bool(np.isnan(judged["expected_rms_ratio"])) == (verdict == REFUSED)
 
 
 def test_unbiased_is_only_whose_bands_hold_zero_and_little_else(paired, hidden):

@@ -60,6 +60,9 @@ def one_line(error: BaseException) -> str | None:
         if isinstance(each, YAMLError | OmegaConfBaseException):
             text = f"{each} -> correct it in conf or --params"
             break
+        if isinstance(each, ValueError) and str(each).startswith("Pipeline does not contain"):
+            text = f"{each} -> `kedro registry describe PIPELINE` lists the nodes of a pipeline"
+            break
         if isinstance(each, ParameterValidationError):
             text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"
             break

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,22 @@ class UnknownParameterHooks:
         asked = dict(context.config_loader.runtime_params or {})
         if asked:
             check_names(asked, *known_names(context.config_loader))
+            check_values(asked, _asked_at_run_time(context.config_loader))
+
+
+def check_values(asked: Mapping[str, Any], needed: Collection[str]) -> None:
+    """Refuse ``--params tir_folder=``, which an empty variable of the shell makes.
+
+    Raises
+    ------
+    DomainError
+        A value is missing that the catalog needs.
+    """
+    for name in sorted(needed):
+        if name in asked and asked[name] in (None, ""):
+            raise DomainError(
+                f"{name!r} has no value", where="--params", todo=f"write it behind the sign: {name}=..."
+            )
 
 
 def check_files(loader: OmegaConfigLoader) -> None:

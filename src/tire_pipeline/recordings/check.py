@@ -31,6 +31,7 @@ from tire_pipeline.recordings.physical_signs import (
 from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
 from tire_pipeline.recordings.spikes import said_of_spikes, spikes
 from tire_pipeline.recordings.stretches import stretches
+from tire_pipeline.recordings.time_unit import unit_of_time
 from tire_pipeline.recordings.unit_jumps import unit_jumps
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
@@ -43,8 +44,6 @@ from tire_pipeline.small_loads import in_another_unit_as
 
 BREAK_OF_TIME_LINE = LONGEST_HOLE + 0.5
 """Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
-LONG_STEP = 1.0
-"""From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
 _UNIT_OF_CHANNEL = {c.name: c.unit for c in (*CANONICAL, *FURTHER)}
 LONG_GAP = 5.0
 """A step of more than so many usual ones is reported as a gap: states are unknown after it."""
@@ -158,7 +157,7 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
         *_backwards(np.concatenate([[False], step < 0])),
         *_repeated(np.concatenate([[False], step == 0])),
         *_gaps(step),
-        *_long_steps(frame, step),
+        *unit_of_time(frame, step),
     ]
 
 
@@ -198,15 +197,6 @@ def _gaps(step: np.ndarray) -> list[Issue]:
     )
     todo = "states such as temperature are unknown after a gap"
     return [Issue("gaps_in_time", "warning", where, todo, _runs(bad))]
-
-
-def _long_steps(frame: pd.DataFrame, step: np.ndarray) -> list[Issue]:
-    usual = float(np.nanmedian(step)) if np.isfinite(step).any() else 0.0
-    if usual <= LONG_STEP:
-        return []
-    where = f"time, {in_digits(usual)} s from sample to sample"
-    todo = f"lags and delays count in seconds: if time is in ms, state it: {unit_stated(frame, 'time', 'ms')}"
-    return [Issue("long_time_steps", "warning", where, todo)]
 
 
 def _values(frame: pd.DataFrame) -> list[Issue]:

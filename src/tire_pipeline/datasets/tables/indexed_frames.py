@@ -11,10 +11,9 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.datasets.storage.files_at import files_at
+from tire_pipeline.datasets.storage.sealed import json_as_sealed, made_again, sealed_json
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import as_parquet, from_parquet
-
-_RUN_AGAIN = "run again; what lies there is not used"
 
 
 def write_parts(
@@ -39,13 +38,19 @@ def write_parts(
         files.write(name, content)
         digest = hashlib.sha256(content).hexdigest()
         parts.append({"name": name, "sha256": digest, "rows": len(frame), **more(frame)})
-    files.write(index, json.dumps({"parts": parts}).encode())
+    files.write(index, sealed_json(json.dumps({"parts": parts}).encode()))
 
 
 def parts_of(folder: str, index: str) -> Iterator[tuple[dict[str, Any], Callable[[], pd.DataFrame]]]:
     """Yield what the index says of each part, and the function that reads it."""
-    for part in json.loads(files_at(folder).read(index))["parts"]:
-        yield part, partial(read_part, folder, part["name"], part["sha256"], _RUN_AGAIN)
+    where, todo = f"{folder}/{index}", made_again(index)
+    content = json_as_sealed(files_at(folder).read(index), where, todo)
+    try:
+        parts = json.loads(content)["parts"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise DomainError("this list of a table's parts is damaged", where=where, todo=todo) from error
+    for part in parts:
+        yield part, partial(read_part, folder, part["name"], part["sha256"], todo)
 
 
 def read_part(folder: str, name: str, sha256: str, todo: str) -> pd.DataFrame:

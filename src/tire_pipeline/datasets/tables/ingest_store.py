@@ -11,6 +11,7 @@ from typing import Any
 from tire_pipeline.datasets.storage.at_path import DatasetAtPath
 from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
+from tire_pipeline.datasets.storage.sealed import json_as_sealed, sealed_json
 from tire_pipeline.datasets.tables.indexed_frames import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
@@ -66,7 +67,7 @@ class IngestStoreDataset(DatasetAtPath[Store, Store]):
             parts = {n: _stored(folder, n, piece) for n, piece in sorted(data.partition.parts.items())}
             new = replace(data.manifest, revision=present.revision + 1)
             table = {"count": data.partition.count, "parts": parts}
-            replace_unless_changed(folder, _MANIFEST, new.to_json(table=table), stamp)
+            replace_unless_changed(folder, _MANIFEST, sealed_json(new.to_json(table=table)), stamp)
             named = {part[0] for part in parts.values()}
             folder.delete(name for name in folder.names() if _is_part(name) and name not in named)
 
@@ -77,9 +78,10 @@ class IngestStoreDataset(DatasetAtPath[Store, Store]):
     def _stamped(self, folder: Files | Objects) -> tuple[bytes | None, str | None]:
         """The manifest as it is stored, and the stamp of its file; None if there is none."""
         try:
-            return folder.read_stamped(_MANIFEST)
+            content, stamp = folder.read_stamped(_MANIFEST)
         except FileNotFoundError:
             return None, None
+        return json_as_sealed(content, self._manifest_path, _TODO), stamp
 
     def _read(self) -> Store:
         content, _ = self._stamped(files_at(self._path))

@@ -14,7 +14,7 @@ from kedro_datasets._typing import TablePreview
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
 from tire_pipeline.datasets.tables.indexed_frames import parts_of, write_parts
-from tire_pipeline.datasets.tables.previewed import readable
+from tire_pipeline.datasets.tables.previewed import first_rows
 from tire_pipeline.files.rows_on_disk import REPORT_ROWS
 from tire_pipeline.pages.safe_csv import original_table, safe_table
 
@@ -105,9 +105,7 @@ class ReportPartsDataset(VersionedDataset[Frames]):
         ----------
         nrows : int
         """
-        first = next(iter(self.load())).head(nrows).astype(object)
-        shown = first.where(first.notna(), None)
-        return readable(TablePreview(shown.to_dict(orient="split")))
+        return first_rows(next(iter(self.load())), nrows)
 
 
 def _of_csv(folder: str, name: str) -> Iterator[pd.DataFrame]:

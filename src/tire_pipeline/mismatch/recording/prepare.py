@@ -34,10 +34,10 @@ from tire_pipeline.mismatch.recording.usable import (
     standing,
 )
 from tire_pipeline.pages.numbers_in_words import how_many
-from tire_pipeline.recordings.check import LONG_STEP
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
 from tire_pipeline.recordings.issue import issue_in_words
 from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
+from tire_pipeline.recordings.time_unit import LONG_STEP
 from tire_pipeline.recordings.whole_rows import (
     LEAST_POINTS,
     LEAST_SAMPLES,

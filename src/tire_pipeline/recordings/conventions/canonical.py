@@ -243,8 +243,7 @@ def _assign(
             continue
         column = names.get(item.name, item.name) or f"channel_{index + 1}"
         if hit:
-            winner = raw.channels[best[hit[0].name][1]].name
-            notes.append(f"{item.name}: {hit[0].name} is taken from {winner}; kept beside it")
+            notes.append(_beside(item, raw.channels[best[hit[0].name][1]], hit[0].name))
         base = column
         while column in taken:
             numbers[base] = numbers.get(base, 1) + 1
@@ -252,6 +251,13 @@ def _assign(
         taken.add(column)
         result.append((item, None, column))
     return result
+
+
+def _beside(item: RawChannel, winner: RawChannel, channel: str) -> str:
+    """Say which of two columns for one channel it is."""
+    if item.name == winner.name:
+        return f"{item.name}: two columns have this name; {channel} is the first, the other is kept beside it"
+    return f"{item.name}: {channel} is taken from {winner.name}; kept beside it"
 
 
 def _check_told(names: Mapping[str, str], source: str) -> None:
@@ -340,5 +346,7 @@ def _repeats(frame: pd.DataFrame, notes: list[str]) -> tuple[pd.DataFrame, dict[
             notes.append(f"{(~same).sum()} time stamps repeat with other values: kept (see check_recording)")
     counts["backward_stamps"] = int((step < 0).sum())
     if counts["backward_stamps"]:
-        notes.append(f"time runs backwards {counts['backward_stamps']} times: rows kept in the file's order")
+        notes.append(
+            f"time runs backwards at {counts['backward_stamps']} places: rows kept in the file's order"
+        )
     return frame, counts

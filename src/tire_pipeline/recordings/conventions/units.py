@@ -28,6 +28,8 @@ UNITS_BY_NAME: dict[str, Unit] = {
     **_same("time", 1e-6, "us", "µs", "microsecond", "microseconds"),
     **_same("time", 1e-9, "ns"),
     **_same("time", 60, "min", "minute", "minutes"),
+    **_same("time", 3600, "h", "hour", "hours"),
+    **_same("time", 86_400, "d", "day", "days"),
     **_same("angle", 1, "rad", "radian", "radians"),
     **_same("angle", 1e-3, "mrad"),
     **_same("angle", DEGREE, "deg", "degree", "degrees", "°", "grad", "grd", "grad_deg"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import csv
 import re
+import warnings
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -19,13 +20,16 @@ from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecord
 from tire_pipeline.recordings.conventions.channel_names import find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
+from tire_pipeline.recordings.readers.no_text import no_text
 from tire_pipeline.recordings.readers.separators import (
     Separators,
     decimal_shown,
     is_number,
     numbers,
+    plain,
     separators,
 )
+from tire_pipeline.recordings.readers.time_stamps import seconds_of
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
@@ -48,6 +52,7 @@ class _TableLayout:
     data_line: int  # counted from 0
     encoding: str
     comments: list[str]
+    nameless: bool
 
 
 def read_csv(path: Path) -> RawRecording:
@@ -70,40 +75,42 @@ def read_csv(path: Path) -> RawRecording:
     table = _table(path, layout)
     if table.empty:
         raise RecordingError("no data rows", where=str(path))
-    notes: list[str] = []
+    notes = ["columns without a name are left out"] if layout.nameless else []
     channels = []
     for index, name in enumerate(layout.header):
         column = table[index]
         if _other_sign(column, layout.decimal):  # as they stand: some may have been read as numbers
             column = _table(path, layout, usecols=[index], dtype=str)[index]
-        values = _numbers(column, name, layout.decimal, notes, path)
         unit = layout.units[index] if layout.units else None
-        if values is not None:
-            channels.append(RawChannel(name, unit, values))
+        channel = _channel(column, name, unit, layout.decimal, notes, path)
+        if channel is not None:
+            channels.append(channel)
     if not channels:
         raise RecordingError("no column holds numbers", where=str(path))
     return RawRecording("CSV", channels, notes=notes, comments=layout.comments)
 
 
 def _table(path: Path, layout: _TableLayout, **more: Any) -> pd.DataFrame:
-    """Read the rows of numbers, columns by their number."""
+    """Read the rows of numbers, columns by their number; those to the right of the last name are left out."""
     try:
-        return pd.read_csv(
-            path,
-            sep=r"\s+" if layout.delimiter == " " else layout.delimiter,
-            decimal=layout.decimal,
-            skiprows=layout.data_line,
-            header=None,
-            names=range(len(layout.header)),
-            index_col=False,
-            encoding=layout.encoding,
-            encoding_errors="replace",
-            na_values=sorted(_EMPTY - {"inf", "-inf", "+inf"}),
-            skipinitialspace=True,
-            quotechar='"',
-            low_memory=True,
-            **more,
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", pd.errors.ParserWarning)
+            return pd.read_csv(
+                path,
+                sep=r"\s+" if layout.delimiter == " " else layout.delimiter,
+                decimal=layout.decimal,
+                skiprows=layout.data_line,
+                header=None,
+                names=range(len(layout.header)),
+                index_col=False,
+                encoding=layout.encoding,
+                encoding_errors="replace",
+                na_values=sorted(_EMPTY - {"inf", "-inf", "+inf"}),
+                skipinitialspace=True,
+                quotechar='"',
+                low_memory=True,
+                **more,
+            )
     except (ValueError, OverflowError, UnicodeError, IndexError) as error:
         said = " ".join(str(error).removeprefix("Error tokenizing data. C error: ").split())
         raise RecordingError(
@@ -139,7 +146,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
         encoding = "utf-16"
     elif b"\x00" in head:
-        raise RecordingError("this is no text file", where=str(path), todo="check its format")
+        raise no_text(head, str(path))
     try:
         text = codecs.getincrementaldecoder(encoding)().decode(head, final=whole)
     except UnicodeDecodeError:
@@ -171,19 +178,25 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
             todo=todo,
         )
     comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
-    return _TableLayout(delimiter, decimal, header, units, line, encoding, comments)
+    nameless = any(len(row) > len(header) for row in rows)
+    return _TableLayout(delimiter, decimal, header, units, line, encoding, comments, nameless)
 
 
 def _fields(line: str, delimiter: str) -> list[str]:
+    """The cells of a line up to the last one that is not empty."""
+    parts = _cells(line, delimiter)
+    while len(parts) > 1 and parts[-1] == "":
+        parts.pop()
+    return parts
+
+
+def _cells(line: str, delimiter: str) -> list[str]:
     if delimiter == " ":
         return line.split()
     parts = line.split(delimiter)
     if '"' in line and len(parts) > 1 and len(line) < csv.field_size_limit():
         parts = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
-    parts = [p.strip().strip('"').strip() for p in parts]
-    while len(parts) > 1 and parts[-1] == "":
-        parts.pop()
-    return parts
+    return [p.strip().strip('"').strip() for p in parts]
 
 
 class _First(NamedTuple):
@@ -217,11 +230,11 @@ def _header_above(
     rows = _rows_above(lines, data, fields, delimiter)
     if not rows:
         return None, None
-    known = [sum(_is_channel(cell) for cell in row) for row in rows]
-    first = 1 if len(rows) > 1 and _are_units(rows[0]) else 0
-    at = known.index(max(known)) if any(known) else first
+    of_units = [_are_units(row) for row in rows]
+    named = [i for i in range(len(rows)) if not of_units[i]] or [0]
+    at = max(named, key=lambda i: sum(map(_is_channel, rows[i])))  # the nearest of several
     header = rows[at]
-    units = next((row for i, row in enumerate(rows) if i != at and _are_units(row)), None)
+    units = next((row for i, row in enumerate(rows) if i != at and of_units[i]), None)
     if units is None:
         return header, None
     units = [cell.strip("[]() ") for cell in units]
@@ -240,6 +253,8 @@ def _rows_above(lines: list[str], data: int, fields: int, delimiter: str) -> lis
                 text = text.strip('"')[len(mark) :].strip()
                 break
         parts = _fields(_TEMPERATURE.sub(r"deg\1", text) if delimiter == " " else text, delimiter)
+        if 1 < len(parts) < fields <= len(_cells(text, delimiter)) and _are_units(parts):
+            parts = _cells(text, delimiter)  # the last columns have no unit
         if len(parts) >= fields or (rows and len(parts) == len(rows[0])):
             rows.append(parts)
         if len(rows) == _MOST_HEADER_ROWS:
@@ -262,18 +277,18 @@ def _other_sign(column: pd.Series, decimal: str) -> bool:
     """Whether cells of text hold the sign that is not the decimal sign, as numbers do."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
         return False
-    text = column.astype("string").str.strip()
+    text = plain(column).str.strip()
     like_numbers = text.str.fullmatch(r"[+-]?[\d.,]+(?:[eEdD][+-]?\d+)?")
     return bool((like_numbers & text.str.contains("," if decimal == "." else ".", regex=False)).any())
 
 
-def _numbers(
-    column: pd.Series, name: str, decimal: str, notes: list[str], path: Path
-) -> NDArray[np.float64] | None:
+def _channel(
+    column: pd.Series, name: str, unit: str | None, decimal: str, notes: list[str], path: Path
+) -> RawChannel | None:
     """A column's numbers; other cells become NaN with a note, a column of text is dropped."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
-        return column.to_numpy(dtype=float)
-    text = column.astype("string").str.strip()
+        return RawChannel(name, unit, column.to_numpy(dtype=float))
+    text = plain(column).str.strip()
     signs = Separators(decimal)
     if _other_sign(column, decimal):
         signs = separators(text.dropna().tolist(), decimal)
@@ -290,9 +305,9 @@ def _numbers(
     values = numbers(text, signs)
     lost = (np.isnan(values) & text.notna()).to_numpy(dtype=bool)
     if np.isnan(values).all():
-        seconds = _seconds(text.str.replace(decimal, ".", regex=False), name, notes)
+        seconds = _seconds(column, decimal, name, notes)
         if seconds is not None:
-            return seconds
+            return RawChannel(name, "s", seconds)
         if text.notna().any():
             notes.append(f"{name}: text, left out")
             return None
@@ -302,7 +317,7 @@ def _numbers(
             f"{name}: {int(lost.sum())} cells are no numbers and became NaN, the first in data row "
             f"{first + 1}: {text.iloc[first]!r}"
         )
-    return values
+    return RawChannel(name, unit, values)
 
 
 def _said_of(signs: Separators, name: str, decimal: str) -> list[str]:
@@ -314,17 +329,13 @@ def _said_of(signs: Separators, name: str, decimal: str) -> list[str]:
     return [f"{name}: {signs.decimal!r} is the decimal sign"] if signs.decimal != decimal else []
 
 
-def _seconds(text: pd.Series, name: str, notes: list[str]) -> NDArray[np.float64] | None:
+def _seconds(column: pd.Series, decimal: str, name: str, notes: list[str]) -> NDArray[np.float64] | None:
     """Dates or hours of a time column in seconds from the first; None if it holds none."""
     hit = find_channel(split_unit(name)[0])
-    if not hit or hit[0].name != "time" or not text.notna().any():
+    if not hit or hit[0].name != "time" or not column.notna().any():
         return None
-    stamps = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
-    if stamps.notna().mean() > 0.9:
-        notes.append(f"{name}: dates, counted in seconds from the first")
-        return (stamps - stamps.min()).dt.total_seconds().to_numpy(dtype=float)
-    spans = pd.to_timedelta(text.where(text.str.contains(":")), errors="coerce")
-    if spans.notna().mean() > 0.9:
-        notes.append(f"{name}: hours, minutes and seconds, counted in seconds from the first")
-        return (spans - spans.min()).dt.total_seconds().to_numpy(dtype=float)
-    return None
+    found = seconds_of(column.astype("string").str.strip(), decimal)
+    if found is None:
+        return None
+    notes.append(f"{name}: {found.kind}, counted in seconds from the first")
+    return found.seconds

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     import pyarrow.parquet as pq
 
 
+_KINDS_OF_NUMBERS = (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean, pa.types.is_decimal)
+
+
 def read_parquet(path: Path) -> RawRecording:
     """Read the numeric columns of a Parquet file.
 
@@ -63,13 +66,15 @@ def _read(file: pq.ParquetFile, schema: pa.Schema) -> RawRecording:
     for field in schema:
         kind = field.type
         stamp = pa.types.is_timestamp(kind) or pa.types.is_duration(kind)
-        number = pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_boolean(kind)
+        number = any(is_kind(kind) for is_kind in _KINDS_OF_NUMBERS)
         if field.name.startswith("__index_level_"):
             continue
         if not (stamp or number):
             notes.append(f"{field.name}: {kind}, no numbers, left out")
             continue
         column = file.read(columns=[field.name]).column(0)
+        if pa.types.is_decimal(kind):
+            column = column.cast(pa.float64())
         if stamp:
             values = column.cast(pa.int64()).to_pandas().to_numpy(dtype=float, na_value=np.nan)
             scale = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}[kind.unit]

@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 _OTHER = {".": ",", ",": "."}
 _EXPONENT = r"(?:[eEdD][+-]?\d+)?"
 _UNGROUPED = re.compile(rf"[+-]?\d+{_EXPONENT}")
+_FORTRAN = re.compile(r"([\d.])[dD]([+-]?\d+)$")
+_OTHER_GROUPS = re.compile("['\u2019 \u00a0\u202f]")
+"""What separates thousands and is no decimal sign anywhere."""
+_GROUPED_OTHERWISE = re.compile(rf"[+-]?\d{{1,3}}(?:{_OTHER_GROUPS.pattern}\d{{3}})+(?:[.,]\d*)?{_EXPONENT}")
 _FEW_CELLS = 0.01
 """Share of a column's numbers that may be unlike the others: damaged cells."""
 _NEAR_A_THOUSAND = 100.0
@@ -51,8 +55,25 @@ _CELL_FORMS = [
 ]
 
 
+def plain(texts: pd.Series) -> pd.Series:
+    r"""Texts whose numbers have the signs of a computer: minus, ``e`` for ``D``, no space or apostrophe.
+
+    Examples
+    --------
+    >>> plain(pd.Series(["\u22121.5D+03", "2\u2019750.3", "1 234,5", "D-3", "a 1"])).tolist()
+    ['-1.5e+03', '2750.3', '1234,5', 'D-3', 'a 1']
+    """
+    return texts.astype("string").map(_plain, na_action="ignore")
+
+
+def _plain(text: str) -> str:
+    text = _FORTRAN.sub(r"\1e\2", text.replace("\u2212", "-"))
+    return _OTHER_GROUPS.sub("", text) if _GROUPED_OTHERWISE.fullmatch(text) else text
+
+
 def _form(text: str) -> _Form | None:
     """Return how a number is written; None if a text is no number."""
+    text = _plain(text)
     if _UNGROUPED.fullmatch(text):
         return _INTEGER
     return next((form for pattern, form in _CELL_FORMS if pattern.fullmatch(text)), None)

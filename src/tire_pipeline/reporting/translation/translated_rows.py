@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.classifiers.suppliers import UNKNOWN_SUPPLIER
 from tire_pipeline.files.rows_on_disk import RowsOnDisk
 from tire_pipeline.tir.reading.read import NEXT_WARNING
-from tire_pipeline.translation.result import EDGE, TRANSLATED, UNBIASED, UNKNOWN
+from tire_pipeline.translation.result import EDGE, TRANSLATED, UNBIASED
 
 ROW_COLUMNS = (
     "file",
@@ -76,7 +77,7 @@ def _rows_of(
         yield (
             file,
             file not in made,
-            _supplier(file, source, str(said["verdict"])),
+            _supplier(file, source),
             said["supplier_known"],
             tire(file),
             said["verdict"],
@@ -138,10 +139,10 @@ def _median_of(value: str, group: str) -> str:
 _MEDIAN_OF_EACH = _median_of("ratio", "supplier")
 
 
-def _supplier(file: str, source: str, verdict: str) -> str:
+def _supplier(file: str, source: str) -> str:
     """The supplier; where it is no known category, the folder, by which the user knows it."""
     folder, slash, _ = file.partition("/")
-    return folder if verdict == UNKNOWN and slash else source
+    return folder if source == UNKNOWN_SUPPLIER and slash else source
 
 
 def _distance(value: float) -> float | None:

@@ -163,6 +163,9 @@ class VerdictRules:
     ) -> pd.DataFrame:
         """Verdict, reason, distance, expected ratio, probability of harm and words, one row a file.
 
+        No ratio and no probability are stated for a refused file: outside of the training data, and where no
+        physical tire was found, they are not to be trusted.
+
         Parameters
         ----------
         model : CurveMixedModel
@@ -202,8 +205,8 @@ class VerdictRules:
                 "verdict": verdict,
                 "reason": reason,
                 "distance": distance,
-                "expected_rms_ratio": np.sqrt(ratio),
-                "harm_probability": harm,
+                "expected_rms_ratio": np.where(verdict == REFUSED, np.nan, np.sqrt(ratio)),
+                "harm_probability": np.where(verdict == REFUSED, np.nan, harm),
                 "bias_band": [band.in_words(i) if told[i] else "" for i in range(len(rows))],
                 "taught": found.taught.astype(int),
                 "changes": said,
