@@ -18,8 +18,6 @@ from itertools import product
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy import load_curvature
-from tire_pipeline.mismatch.discrepancy.background import UNNAMED
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.evidence.summed import summed
@@ -33,10 +31,8 @@ MISFITS = (0.002, 0.006, 0.02)
 """Sizes of the formula's misfit over the largest force; all as likely beforehand."""
 PATHS = (0.0005, 0.008)
 """Sizes of the misfit's difference between rising and falling slip."""
-BACKGROUNDS = (0.1, 0.5)
-"""Sizes of a rig's background over what was learnt: some have hardly any, and its many directions show it."""
-OF_FORMULA = (load_curvature.FAMILY, UNNAMED)
-"""Families of the background that no rig is free of: what the formula leaves over the load and in motion."""
+BACKGROUNDS = (0.3, 1.0)
+"""Sizes of the background over the usual one: some rigs have hardly any, and its many directions show it."""
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
 _ROUNDS_OF_CLIMBING = 4
@@ -185,13 +181,12 @@ class Likelihood:
     def __init__(self, unknown: Unknown, learnt: LearntSizes) -> None:
         self.unknown, self.learnt, self._each = unknown, learnt, False
         background = learnt.of(unknown.families)
-        of_formula = np.isin(unknown.families, OF_FORMULA)
         depends = any(size.path for size in unknown.sizes.values())
         self._cells: dict[str, list[tuple[Array, Array]]] = {o: [] for o in unknown.gram}
         for share, path, part in product(MISFITS, PATHS if depends else PATHS[:1], BACKGROUNDS):
             scale = nuisance_scale(dict(unknown.sizes), share, path)
             for o, gram in unknown.gram.items():
-                s = np.r_[scale[o], np.where(of_formula, 1.0, part) * background]
+                s = np.r_[scale[o], part * background]
                 values, vectors = np.linalg.eigh(gram * s[:, None] * s[None, :])
                 self._cells[o].append((np.maximum(values, 0.0), s[:, None] * vectors))
 
