@@ -149,3 +149,10 @@ VERTICAL_STIFFNESS = 1.6e5
 def test_a_motorcycle_file_without_coefficients_is_refused():
     with pytest.raises(Exception, match="no Magic Formula coefficient"):
         read_tir(MOTORCYCLE.encode(), path="x.tir")
+
+
+def test_a_text_above_all_section_headers_lacks_its_header(tmp_path):
+    path = tmp_path / "a.tir"
+    path.write_text("MASS = 'kg'\nFILE_VERSION = 3.0\nPCY1 = 1.3\n")
+    with pytest.raises(TirValueError, match=r"a\.tir:1: MASS = 'kg'.* put the header .*\[UNITS\]"):
+        read_tir(path)

@@ -374,6 +374,8 @@ def _not_a_number(entry: Entry, file: TirFile) -> TirValueError:
     todo = "write a number; a comment after it starts with $"
     if "," in entry.value:
         todo = "write the decimal point as a point"
+    if not entry.section:
+        todo = "put the header of its section, such as [UNITS], above it: no section has begun here"
     return TirValueError(
         f"{entry.key} = {entry.value[:40]!r} is not a finite number",
         path=file.path,
