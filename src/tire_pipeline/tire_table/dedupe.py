@@ -63,7 +63,8 @@ def dedupe_and_filter(
     DomainError
         A feature is no column of the table.
     """
-    _refuse_unknown(features, table.columns, len(table))
+    _refuse_nothing(len(table))
+    _refuse_unknown(features, table.columns)
     force = [name for name in table.columns if _NAME_OF_FORCE_COLUMN(name)]
     keys = _keys(table, force, list(features))
     marked = _marked([keys.assign(place=np.arange(len(keys)))], minimum_per_category)
@@ -95,7 +96,8 @@ def usable_files(
     report : iterable of DataFrame
         As in :func:`dedupe_and_filter`, in the order of ``file``; the report some thousand rows at a time.
     """
-    _refuse_unknown(features, table.numbers, len(table))
+    _refuse_nothing(len(table))
+    _refuse_unknown(features, table.numbers)
     force = sorted(name for name in table.numbers if _NAME_OF_FORCE_COLUMN(name))
     parts = (_keys(part, force, list(features)) for part in table)
     marked = _marked((keys.assign(place=keys["file"]) for keys in parts), minimum_per_category)
@@ -104,13 +106,16 @@ def usable_files(
     return table.rows_of(kept), _report(marked)
 
 
-def _refuse_unknown(features: Sequence[str], columns: Sequence[str] | pd.Index, files: int) -> None:
+def _refuse_nothing(files: int) -> None:
     if not files:
         raise DomainError(
             "there is no file to learn from",
             todo="put .tir files into <folder>/<category>/*.tir; the list of files says why each of those "
             "there was not read",
         )
+
+
+def _refuse_unknown(features: Sequence[str], columns: Sequence[str] | pd.Index) -> None:
     unknown = [name for name in features if name not in columns]
     if unknown:
         raise DomainError(

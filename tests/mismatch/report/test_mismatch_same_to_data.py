@@ -1,4 +1,4 @@
-"""What is the same to the data as something without a name says so, wherever it is named."""
+"""An effect says what else would look the same in the data, wherever it is named."""
 
 import pytest
 from weighed import all_but

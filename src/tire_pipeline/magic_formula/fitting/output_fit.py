@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.fitting.least_squares.search import (
 )
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
 from tire_pipeline.magic_formula.fitting.setup.coverage import noise_alone, open_coefficients
-from tire_pipeline.magic_formula.fitting.setup.starts import bounds_of, starting_points
+from tire_pipeline.magic_formula.fitting.setup.starts import bounds_of, starting_points, values_of
 from tire_pipeline.magic_formula.fitting.setup.typical import Pull, pull
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome
 from tire_pipeline.magic_formula.model import TireModel
@@ -63,17 +63,17 @@ def fit_together(
     problem, bounds = _problem(outcomes, model, points, measured)
     if are_few(problem):
         return before
-    staged = _values_of(outcomes)
+    staged = np.concatenate([list(outcome.values.values()) for outcome in outcomes])
     starts = starting_points(staged, bounds, problem.pull.spread, min(_STARTS, options.starts), options.rng)
-    best = least(problem, bounds, [*starts, *_seeded(problem, bounds, seeds)])
+    best = least(problem, bounds, [*starts, *values_of(seeds, _typical(problem), bounds)])
     lowest, left = problem.misfit(best), problem.misfit(staged)
     wider = [_released(outcome, model, points) for outcome in outcomes]
     more, limits = _problem(wider, model, points, measured)
     if len(more.names) > len(problem.names) and not are_few(more):
-        typical = dict(zip(more.names, more.pull.centre, strict=True))
-        begin = list({**typical, **dict(zip(problem.names, best, strict=True))}.values())
-        drawn = starting_points(np.array(begin), limits, more.pull.spread, len(starts), options.rng)
-        freest = least(more, limits, [*drawn, *_seeded(more, limits, seeds)])
+        typical, ended = _typical(more), dict(zip(problem.names, best, strict=True))
+        begin = np.array([ended.get(n, typical[n]) for n in more.names])
+        drawn = starting_points(begin, limits, more.pull.spread, len(starts), options.rng)
+        freest = least(more, limits, [*drawn, *values_of(seeds, typical, limits)])
         if lowest > min((1.0 + SLACK) * more.misfit(freest), bar):
             outcomes, problem, bounds, best = wider, more, limits, freest
             lowest, left = problem.misfit(best), np.inf
@@ -90,21 +90,18 @@ def fit_together(
     ]
 
 
-def _values_of(outcomes: Sequence[Outcome]) -> np.ndarray:
-    """Return the values of all coefficients of the stages."""
-    return np.concatenate([list(outcome.values.values()) for outcome in outcomes])
+def _typical(problem: Problem) -> dict[str, float]:
+    return dict(zip(problem.names, problem.pull.centre, strict=True))
 
 
-def _seeded(problem: Problem, bounds: Bounds, seeds: Sequence[TireModel]) -> list[np.ndarray]:
-    """Return the values that other models have."""
-    typical = dict(zip(problem.names, problem.pull.centre, strict=True))
-    values = [[seed.coefficients.get(n, typical[n]) for n in problem.names] for seed in seeds]
-    return [np.clip(each, *bounds) for each in values]
+def _kept(outcome: Outcome) -> dict[str, float]:
+    """Return the values of what a stage kept, whatever the reason."""
+    return {name: value for group in outcome.kept.values() for name, value in group.items()}
 
 
 def _widened(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray]) -> Outcome:
     """Return a stage that also frees what only all points together determine, such as pressure."""
-    kept = {name: value for group in outcome.kept.values() for name, value in group.items()}
+    kept = _kept(outcome)
     closed = open_coefficients(tuple(kept), points, model.value("FNOMIN"))
     more = {n: v for n, v in kept.items() if not any(n in group for group in closed.values())}
     return _freed(outcome, more)
@@ -112,7 +109,7 @@ def _widened(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray
 
 def _released(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray]) -> Outcome:
     """Return a stage that also frees what the ranges cannot determine, but the rows may need."""
-    kept = {name: value for group in outcome.kept.values() for name, value in group.items()}
+    kept = _kept(outcome)
     silent = noise_alone(tuple(kept), points, model.value("FNOMIN"))
     more = {n: v for n, v in kept.items() if n not in silent}
     released = {reason: [n for n in group if n in more] for reason, group in outcome.kept.items()}

@@ -29,6 +29,7 @@ from tire_pipeline.magic_formula.fitting.setup.starts import (
     first_values,
     starting_points,
     typical_values,
+    values_of,
 )
 from tire_pipeline.magic_formula.fitting.setup.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
@@ -143,8 +144,7 @@ class _StageProblem:
 
     def simpler(self, problem: Problem, bounds: Bounds) -> list[np.ndarray]:
         """Return the values that the seeds have."""
-        values = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
-        return [np.clip(x, *bounds) for x in values]
+        return values_of(self.seeds, {n: self.typical[n] for n in problem.names}, bounds)
 
     def search(self, free: Sequence[str], number: int, begin: Sequence[np.ndarray] = ()) -> _StageSearch:
         """Search over these from random starts, the seeds, and others."""

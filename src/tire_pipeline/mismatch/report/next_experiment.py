@@ -66,9 +66,8 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     """
     open_names = _sets_that_are_open(answer)
     if not open_names:
-        first_names = (names[0] for names, _ in answer.sets)
-        alike = (n for n in first_names if catalogue()[n].same_to_data(analysis.data))
-        return _own_experiment(next(alike, None))
+        alike = [names[0] for names, _ in answer.sets if catalogue()[names[0]].same_to_data(analysis.data)]
+        return _own_experiment(alike[0]) if alike else ""
     sweeps = list(_sweeps(analysis))
     gains = np.array([[_gain(s, q.rivals, model, analysis) for q in open_names] for s in sweeps])
     best = int(gains.sum(axis=1).argmax())
@@ -81,9 +80,9 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     return _own_experiment(open_names[0].names[0])
 
 
-def _own_experiment(name: str | None) -> str:
-    """Return the experiment of an effect as a sentence; nothing without an effect."""
-    text = catalogue()[name].experiment if name else ""
+def _own_experiment(name: str) -> str:
+    """Return the experiment of an effect as a sentence; nothing where it has none."""
+    text = catalogue()[name].experiment
     return f"{text[:1].upper()}{text[1:]}." if text else ""
 
 

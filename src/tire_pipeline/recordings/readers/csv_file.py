@@ -277,7 +277,11 @@ def _other_sign(column: pd.Series, decimal: str) -> bool:
     """Whether cells of text hold the sign that is not the decimal sign, as numbers do."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
         return False
-    text = plain(column).str.strip()
+    return _shows_other_sign(plain(column).str.strip(), decimal)
+
+
+def _shows_other_sign(text: pd.Series, decimal: str) -> bool:
+    """The same of text that is :func:`plain`."""
     like_numbers = text.str.fullmatch(r"[+-]?[\d.,]+(?:[eEdD][+-]?\d+)?")
     return bool((like_numbers & text.str.contains("," if decimal == "." else ".", regex=False)).any())
 
@@ -290,7 +294,7 @@ def _channel(
         return RawChannel(name, unit, column.to_numpy(dtype=float))
     text = plain(column).str.strip()
     signs = Separators(decimal)
-    if _other_sign(column, decimal):
+    if _shows_other_sign(text, decimal):
         signs = separators(text.dropna().tolist(), decimal)
         notes += _said_of(signs, name, decimal)
     if signs.unclear and _is_channel(name):

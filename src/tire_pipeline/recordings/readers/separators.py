@@ -72,8 +72,7 @@ def _plain(text: str) -> str:
 
 
 def _form(text: str) -> _Form | None:
-    """Return how a number is written; None if a text is no number."""
-    text = _plain(text)
+    """Return how a number is written that is :func:`plain`; None if a text is no number."""
     if _UNGROUPED.fullmatch(text):
         return _INTEGER
     return next((form for pattern, form in _CELL_FORMS if pattern.fullmatch(text)), None)
@@ -87,7 +86,7 @@ def is_number(text: str, decimal: str) -> bool | None:
     >>> is_number("2,750.3", "."), is_number("2,75", "."), is_number("2,750", ".")
     (True, False, None)
     """
-    form = _form(text)
+    form = _form(_plain(text))
     if form is None:
         return False
     if form.decimal in ("", decimal):
@@ -103,7 +102,7 @@ def decimal_shown(texts: Iterable[str]) -> str:
     >>> decimal_shown(["2,750", "1"]), decimal_shown(["2,750", "0,5"]), decimal_shown(["2,750.3"])
     ('', ',', '.')
     """
-    shown = {f.decimal for f in map(_form, texts) if f and f.decimal and not f.ambiguous}
+    shown = {f.decimal for f in map(_form, map(_plain, texts)) if f and f.decimal and not f.ambiguous}
     return shown.pop() if len(shown) == 1 else ""
 
 
@@ -130,7 +129,7 @@ def separators(texts: Sequence[str], decimal: str) -> Separators:
     Parameters
     ----------
     texts : sequence of str
-        Its cells.
+        Its cells, which are :func:`plain`.
     decimal : str
         Decimal sign of the table, for a column that does not show its own.
 

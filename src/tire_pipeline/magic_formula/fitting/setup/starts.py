@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.random import Generator
@@ -76,6 +76,21 @@ def _slope_at_small_slip(slip: np.ndarray, normalised: np.ndarray) -> float:
         return 0.0
     small = moved & (size < 1.01 * size[moved].min())
     return float(slip[small] @ normalised[small] / (slip[small] @ slip[small]))
+
+
+def values_of(
+    models: Sequence[TireModel], typical: Mapping[str, float], bounds: tuple[np.ndarray, np.ndarray]
+) -> list[np.ndarray]:
+    """Return the values that other models have of some coefficients, within bounds; typical ones they lack.
+
+    Parameters
+    ----------
+    models : sequence of TireModel
+    typical : mapping
+        Value of each coefficient, in the order of the bounds.
+    bounds : (ndarray, ndarray), shape (m,) each
+    """
+    return [np.clip([m.coefficients.get(n, x) for n, x in typical.items()], *bounds) for m in models]
 
 
 def starting_points(
