@@ -92,7 +92,7 @@ class Projected:
         picked = np.r_[np.asarray(columns, dtype=int), last]
         return Projected(
             {o: a[np.ix_(picked, picked)] for o, a in self.own.items()},
-            {o: parts[:, :, picked] for o, parts in self.parts.items()},
+            {o: np.take(parts, picked, axis=2) for o, parts in self.parts.items()},
         )
 
 
@@ -229,16 +229,21 @@ class Likelihood:
         return self.projected_together([products])[0]
 
     def projected_together(self, every: Sequence[ColumnProducts]) -> list[Projected]:
-        """Return :meth:`projected` of each of many columns, of the same forces, by one large product."""
+        """Return :meth:`projected` of each of many columns, of the same forces, by one large product.
+
+        Columns that several of them have, of unnamed forms or of nothing, are projected once.
+        """
         parts: list[dict[str, Array]] = [{} for _ in every]
         for o in every[0].own:
-            cells = self._cells[o]
-            nuisance = [each.nuisance[o] for each in every]
-            cuts = np.cumsum([x.shape[1] for x in nuisance])[:-1]
-            whole = np.hstack(nuisance)
-            seen = np.array([v.T @ whole for _, v in cells])
-            for part, own in zip(parts, np.split(seen, cuts, axis=2), strict=True):
-                part[o] = own
+            different: dict[bytes, int] = {}
+            which = [
+                np.array([different.setdefault(column.tobytes(), len(different)) for column in each.nuisance[o].T])
+                for each in every
+            ]
+            whole = np.array([np.frombuffer(column) for column in different]).T
+            seen = np.array([v.T @ whole for _, v in self._cells[o]])
+            for part, columns in zip(parts, which, strict=True):
+                part[o] = np.take(seen, columns, axis=2)
         return [Projected(each.own, part) for each, part in zip(every, parts, strict=True)]
 
     def evidence(

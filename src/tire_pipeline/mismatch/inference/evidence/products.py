@@ -204,6 +204,39 @@ class RecordingProducts:
             nuisance[o] = beside.T @ scaled / len(scaled)
         return ColumnProducts(own, nuisance)
 
+    def _with_unnamed(self, columns: Mapping[str, Array], before: int) -> ColumnProducts:
+        """Return products of some columns with those of unnamed forms put in before one of them.
+
+        The unnamed forms are the same beside every set: their own products are made once. And what is nothing
+        in a force, as a form error of the other force is, has none.
+        """
+        own, nuisance = {}, {}
+        for o, x in columns.items():
+            scaled = x[self.rows] / self.largest[o]
+            forms, forms_own, forms_nuisance = self._unnamed_products[o]
+            live = np.flatnonzero(scaled.any(axis=0))
+            count, more = scaled.shape[1], forms.shape[1]
+            scaled = scaled[:, live]
+            at = np.where(live < before, live, live + more)
+            there = np.r_[at, np.arange(before, before + more)]
+            both = scaled.T @ forms / len(scaled)
+            own[o] = np.zeros((count + more, count + more))
+            own[o][np.ix_(there, there)] = np.block(
+                [[scaled.T @ scaled / len(scaled), both], [both.T, forms_own]]
+            )
+            nuisance[o] = np.zeros((self._beside[o].shape[1], count + more))
+            nuisance[o][:, there] = np.hstack([self._beside[o].T @ scaled / len(scaled), forms_nuisance])
+        return ColumnProducts(own, nuisance)
+
+    @cached_property
+    def _unnamed_products(self) -> dict[str, tuple[Array, Array, Array]]:
+        """The unnamed forms over the largest force, and their products with each other and the nuisance."""
+        out = {}
+        for o, x in self._unnamed.items():
+            forms = x[self.rows] / self.largest[o]
+            out[o] = (forms, forms.T @ forms / len(forms), self._beside[o].T @ forms / len(forms))
+        return out
+
     @property
     def unnamed_forms(self) -> tuple[dict[str, Array], ...]:
         """The columns of each unnamed form by itself, N, each of shape (n, k)."""
@@ -217,7 +250,9 @@ class RecordingProducts:
         changes : sequence of (name, parameters)
         free : sequence of tuple of str
         """
-        return self._weighed(changes, free, *self.columns_of_set(changes, free), self._unnamed)
+        labels, every = self.columns_of_set(changes, free, self._nothing)
+        before = every[self.data.outputs[0]].shape[1] - 1  # the residual comes last
+        return self._set(changes, free, labels, before, self._with_unnamed(every, before))
 
     def of_effects(self, changes: Sequence[Change], free: Free, added: Mapping[str, Array]) -> OfSet:
         """Return a set as :meth:`of_set` does, without unnamed forms, where more was recorded.
@@ -229,11 +264,11 @@ class RecordingProducts:
         added : mapping of ndarray, shape (n,)
             What is recorded besides, N.
         """
-        none = {o: np.zeros((self.data.size, 0)) for o in self.data.outputs}
-        labels, every = self.columns_of_set(changes, free, none)
+        labels, every = self.columns_of_set(changes, free, self._nothing)
         for o, more in added.items():
             every[o][:, -1] += more
-        return self._weighed(changes, free, labels, every, none)
+        before = every[self.data.outputs[0]].shape[1] - 1
+        return self._set(changes, free, labels, before, self.of(every))
 
     def with_forms(self, each: OfSet) -> OfSet:
         """Return a set with the columns of every unnamed form by itself."""
@@ -264,15 +299,13 @@ class RecordingProducts:
             every[o] = np.column_stack([columns[o] * wide, *errors, unnamed[o], rest[o] + columns[o] @ off])
         return labels, every
 
-    def _weighed(
-        self,
-        changes: Sequence[Change],
-        free: Free,
-        labels: Labels,
-        every: Mapping[str, Array],
-        unnamed: Mapping[str, Array],
+    @property
+    def _nothing(self) -> dict[str, Array]:
+        return {o: np.zeros((self.data.size, 0)) for o in self.data.outputs}
+
+    @staticmethod
+    def _set(
+        changes: Sequence[Change], free: Free, labels: Labels, columns: int, products: ColumnProducts
     ) -> OfSet:
-        first = self.data.outputs[0]
-        errors = every[first].shape[1] - 1 - len(labels) - unnamed[first].shape[1]
         copied = tuple((name, dict(values)) for name, values in changes)
-        return OfSet(copied, tuple(free), len(labels), errors, self.of(every))
+        return OfSet(copied, tuple(free), len(labels), columns - len(labels), products)
