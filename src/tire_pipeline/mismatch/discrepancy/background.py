@@ -22,7 +22,9 @@ Columns = Mapping[str, Array]
 UNNAMED = "unnamed"
 """Family of the unnamed forms: rates, memory, play, what repeats along the road."""
 _MOST_DIRECTIONS = 12
+"""Of one effect's forms. They differ in one shape or two: the first directions hold nearly all of it."""
 _LEAST_OF_FIRST = 0.02
+"""Least variance of a direction over that of the first: one of a smaller share changes no evidence."""
 _NO_COLUMN = 1e-9
 
 

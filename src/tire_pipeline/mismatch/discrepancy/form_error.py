@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
 _TIME_KNOTS = 12
+"""Moments, over the whole recording, at which the wheel's angle may have drifted by any amount."""
 USUAL_FORM_ERROR = 0.15
 """How wrong a form usually is, as a share of it: what half a sample of shift is measured by."""
 _IMAGINED = 4.0

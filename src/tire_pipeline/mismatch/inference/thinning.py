@@ -20,8 +20,11 @@ from tire_pipeline.progress import track
 
 Array = np.ndarray
 MOST_SAMPLES = 18_000
+"""Samples of the longest recording that is searched as a whole: 180 s at 100 Hz."""
 _STRETCH = MOST_SAMPLES // INDEPENDENT_STRETCHES
 _MOST_ERRORS_MOVED = 6.0
+"""Standard errors that a parameter may move when the rest of a long recording is fitted, too: farther than
+that the linear step says nothing."""
 _RCOND = 1e-8
 
 

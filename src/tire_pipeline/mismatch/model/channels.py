@@ -14,6 +14,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP
 
 Array = np.ndarray
 _RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1, "load_transfer": 0.1}
+"""Standard deviation over the median by which a channel varies at the least; with less it is held."""
 ABSOLUTE_SPREAD = {
     "camber": 0.008,
     "tread_temperature": 4.0,
@@ -21,6 +22,7 @@ ABSOLUTE_SPREAD = {
     "slip_ratio": 0.01,
     "turn_slip": 0.003,
 }
+"""The same of channels that may be zero, in SI: rad, degC, 1, rad, 1/m."""
 
 SLOW = 0.5
 """Mean over so many seconds, in which sensor noise goes under."""
@@ -64,7 +66,7 @@ def largest(x: Array) -> float:
 
 def high(x: Array) -> float:
     """Return the size that one in ten samples of a channel exceeds."""
-    return float(np.quantile(np.abs(x), 0.9))
+    return float(np.quantile(np.abs(x), 1.0 - 2.0 * CHANCE))
 
 
 def used(slip: Array) -> Array:

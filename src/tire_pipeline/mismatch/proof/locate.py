@@ -13,6 +13,10 @@ from tire_pipeline.mismatch.model.channels import CHANCE, CLASSES, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
+_FLIPS = 199
+"""Draws of signs: with so many a chance of one in twenty is known to a third of itself."""
+_NARROW = 0.02
+"""Part of a channel's range below which a stretch is a held level, not a range to name."""
 _LEAST_FORCE = 0.1
 """A share of the force is stated where the force is above this part of the largest one."""
 _EVEN = 0.7
@@ -59,7 +63,7 @@ def locate(
     noise: dict[str, ForceNoise],
     block: Array,
     *,
-    flips: int = 199,
+    flips: int = _FLIPS,
     seed: int = 0,
 ) -> list[Located]:
     """Find where a residual is not noise.
@@ -112,7 +116,7 @@ def _axes(
         for width in _widths():
             for k in range(0, CLASSES + 1 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
-                if high - low > 0.02 * (edges[-1] - edges[0]):
+                if high - low > _NARROW * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
     count = signs.shape[1]
     sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])

@@ -39,6 +39,8 @@ _LARGER = 4.0
 """Factor between the sizes at which an effect that is not linear is looked at."""
 _MOST_FORMS = 3
 _SMALLEST_SIZE, _SIZES_TRIED, _HALVINGS = 1e-4, 97, 40
+"""Sizes over the largest that the bounds allow: where the possible ones begin is looked for on 24 sizes a
+decade, and between two of them to rounding."""
 FALSE = 0.02
 """Level of the likelihood-ratio test over all of the catalogue: in so many recordings in which nothing is
 missing something may be named (issue 24)."""

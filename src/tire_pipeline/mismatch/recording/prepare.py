@@ -50,6 +50,8 @@ from tire_pipeline.recordings.whole_rows import (
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
+_LOADS_OF_MODEL = (0.02, 8.0)
+"""Over the nominal load: at others the file is of another tire, or the load has another unit."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 
 
@@ -364,10 +366,10 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
     load = arrays["normal_load"]
     c = tire.coefficients
     nominal = c.get("FNOMIN", float(np.median(load)))
-    low, high = 0.02 * nominal, 8.0 * nominal
+    low, high = (size * nominal for size in _LOADS_OF_MODEL)
     if c.get("FZMAX", 0.0) > 0.0:
         low = min(low, c.get("FZMIN", low)) if c.get("FZMIN", 0.0) > 0.0 else low
-        high = max(high, 1.5 * c["FZMAX"])
+        high = max(high, c["FZMAX"])
     inside = (load > low) & (load < high)
     if inside.mean() < LEAST_WHOLE:
         raise RecordingError(

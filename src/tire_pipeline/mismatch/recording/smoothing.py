@@ -13,9 +13,20 @@ import scipy
 
 Array = np.ndarray
 _FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
+"""Samples and order of the polynomials that are tried, from narrow and bent to wide and even."""
 _INTERVAL_WIDTH = 1.7
+"""Standard deviations to each end of the intervals that have to intersect."""
+_AT_SET_POINTS = 0.3
+"""Part of second differences that are exactly zero, from which a channel holds its values."""
+_ROUNDING = 2e-6
+"""Noise over the range of a channel below which it is rounding."""
+_LEVELS_LOWERED, _LEVELS_AROUND = 30, 21
+"""A window is no wider than this percentile of the windows of so many samples about it: one sample that
+happens to agree with a wide window does not get it."""
 _CALM_STRETCH = 50
 """Samples within which a signal is calm or not."""
+_CALM_PART = 0.25
+"""Part of such stretches in which the signal itself is calm: sweeps turn, and set points hold."""
 _MOST_ALIKE = 0.95
 """Largest correlation from one sample to the next that noise may have: what is more alike moves."""
 _NOISE_ONLY = 1.5
@@ -38,7 +49,7 @@ def denoise(x: Array, start: Array) -> Array:
         window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
     sigma, rho = _noise(x, start)
-    if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
+    if sigma < 1e-12 or sigma < _ROUNDING * float(np.ptp(x)):
         return x
     if np.std(x) < _NOISE_ONLY * sigma:
         return np.full_like(x, np.mean(x))
@@ -55,7 +66,7 @@ def _noise(x: Array, start: Array) -> tuple[float, float]:
     """Size of the noise and its correlation from one sample to the next; zero for a set point."""
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     d = d[~(start[2:] | start[1:-1])]
-    if d.size < _CALM_STRETCH or np.mean(d == 0.0) > 0.3:
+    if d.size < _CALM_STRETCH or np.mean(d == 0.0) > _AT_SET_POINTS:
         return 0.0, 0.0
     rho = _colour(x, start)
     return float(_quiet(np.abs(d)) / scipy.stats.halfnorm.median() / np.sqrt(_bent(rho, 1))), rho
@@ -70,7 +81,7 @@ def _bent(rho: float, lag: int) -> float:
 def _quiet(size: Array) -> float:
     """Lower quartile over stretches of the median: where the signal itself is calm."""
     whole = size[: size.size // _CALM_STRETCH * _CALM_STRETCH].reshape(-1, _CALM_STRETCH)
-    return float(np.quantile(np.median(whole if whole.size else size[None], axis=1), 0.25))
+    return float(np.quantile(np.median(whole if whole.size else size[None], axis=1), _CALM_PART))
 
 
 def _piece(x: Array, sigma: float, rho: float) -> Array:
@@ -90,7 +101,7 @@ def _piece(x: Array, sigma: float, rho: float) -> Array:
         high = np.where(alive, np.minimum(high, value + half), high)
         alive &= low <= high
         level = np.where(alive, len(values) - 1, level)
-    level = scipy.ndimage.percentile_filter(level, 30, 21, mode="nearest")
+    level = scipy.ndimage.percentile_filter(level, _LEVELS_LOWERED, _LEVELS_AROUND, mode="nearest")
     return np.choose(level, values)
 
 

@@ -28,6 +28,7 @@ Array = np.ndarray
 _SLOW_PERIOD, _FAST_PERIOD = 10.0, 1.0
 """Of a sweep, s."""
 _MORE_PRESSURE = 1.2
+"""Times the recording's pressure, in a sweep with another one: within what a tire may be run at."""
 _BETWEEN = 0.5
 """Order of the divergence between two distributions: the bound is best where both count alike."""
 

@@ -34,6 +34,8 @@ terms whose numbers are refined, and pairs to which a third term is added."""
 _SUMMED_TERMS = 90
 """Terms of which all sums are kept."""
 _STEPS_OF_NUMBERS = (1.8, 1.35, 1.15)
+"""Factors by which a number of a term is moved up or down, one after the other, between values of the grid,
+of which each is about three times the one before."""
 _RADII = (0.1, 2.5)
 """Radii of what may roll along, m."""
 

@@ -20,8 +20,9 @@ from tire_pipeline.mismatch.unnamed_physics.language.symbols import CHANNEL
 LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 """s; between them the search goes on from the best."""
 WAYS = (0.1, 0.3, 1.0, 3.0)
-"""m."""
+"""m; the same."""
 PLAYS = {"s": (0.0015, 0.004, 0.01), "fy/(F0*L)": (0.05, 0.15, 0.4)}
+"""Half widths of a play in the slip angle (its tangent) and in the lateral force over the load."""
 EACH_NODE = math.log(2.0)
 """Log evidence that a node costs: a shorter equation comes first. One bit."""
 BREAKS_MIRROR = 3.0

@@ -28,6 +28,9 @@ _COEFFICIENTS_OF_FORCE = {
 }
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
+_LEAST_PART = 0.01
+"""Part of a coefficient's slope below which its symmetric, or its asymmetric, half is what differences leave
+by rounding."""
 ONE_LOAD = 6.0
 """Factor on what coefficients may be off by in a recording at one load, for what keeps the mirror symmetry: a
 fit to many loads may be off at any one of them."""
@@ -82,7 +85,7 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
     image = jacobian(data, name, mirrored) * (1.0 if name == "fx" else -1.0)
     kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
-    least = 1e-2 * np.sqrt(np.mean(slopes**2, axis=0))
+    least = _LEAST_PART * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
     size = 1.0 if data.varies("normal_load") else ONE_LOAD

@@ -22,6 +22,8 @@ from tire_pipeline.mismatch.model.channels import CLASSES, DOES_NOTHING, OUTLIER
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
+_OF_OTHER_FORCE = 0.3
+"""A force near zero is measured by this part of the other one."""
 _ACROSS = 5
 """Loads, slip angles and cambers at which another input is swept."""
 
@@ -122,7 +124,7 @@ def largest_force(data: Data, name: str) -> float:
     If this force is near zero, a fraction of the other one.
     """
     sizes = {n: float(np.quantile(np.abs(data.simulation.base[n]), 1.0 - OUTLIERS)) for n in data.outputs}
-    return max(sizes[name], 0.3 * max(*sizes.values(), 1e-09))
+    return max(sizes[name], _OF_OTHER_FORCE * max(*sizes.values(), 1e-09))
 
 
 def _grid(data: Data) -> dict[str, Array]:

@@ -21,10 +21,18 @@ from tire_pipeline.mismatch.model.plain_forces import plain_forces
 Array = np.ndarray
 At = dict[str, Array]
 _LENGTHS_OF_INPUTS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
+"""Length in which the misfit may change: of slip by the angle whose tangent it is over the slip at which the
+curve bends, a quarter turn being 1; of load by half its range; of camber by its largest."""
 _MOST_CENTRES = 130
+"""Inducing points of each kernel at most: the time of the features grows with their square."""
 _UNLOADED = 0.25
 """Size of the misfit without load, over that at the largest load."""
 _SYMMETRIC_LENGTH, _ASYMMETRIC_LENGTH = 0.85, 1.3
+"""Times those lengths: what breaks the mirror symmetry changes more slowly."""
+_USED_BY_CAMBER = 0.3
+"""Part of the misfit of Fy that the largest camber brings without slip, as it brings a part of the force."""
+_AT_REST = 0.1
+"""Part of the misfit that is left where the force is zero."""
 
 
 def flexible_form(
@@ -56,8 +64,9 @@ def flexible_form(
         size = _UNLOADED + (1.0 - _UNLOADED) * np.maximum(point["normal_load"] / top, 0.0)
         used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
         if name == "fy":
-            used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
-        return size * np.maximum(used, 0.1)
+            by_camber = _USED_BY_CAMBER * np.abs(point["camber"]) / lean * data.varies("camber")
+            used = np.minimum(used + by_camber, 1.0)
+        return size * np.maximum(used, _AT_REST)
 
     def features(at: Array, point: dict[str, Array]) -> Array:
         waves = np.hstack([k.features(at) for k in kernels])

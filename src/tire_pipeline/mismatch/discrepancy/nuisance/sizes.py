@@ -12,9 +12,9 @@ COEFFICIENT_SHARE = 0.0005
 """How far the model may be off along each direction of its coefficients, RMS over largest force."""
 
 COEFFICIENT_PART = 0.05
+"""The same as a part of the flexible form's size: a worse fit is also worse along its coefficients."""
 COEFFICIENT_MOST = 0.0009
-"""The same as a part of the flexible form's size, and at most: a worse fit is also worse along its
-coefficients, but a fit is what leaves little along them."""
+"""The same at most, over the largest force: a fit is what leaves little along its coefficients."""
 
 SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.05)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""

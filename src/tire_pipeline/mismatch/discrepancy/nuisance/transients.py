@@ -13,6 +13,8 @@ from tire_pipeline.mismatch.model.residual import rms
 Array = np.ndarray
 BANDS = (0.0, 0.1, 0.2)
 """Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
+_LEAST_LOAD = 0.02
+"""Over the nominal load: a change counts over the load itself, but where a wheel hardly touches the road."""
 MEMORY_SECONDS = (1.0, 4.0)
 """Seconds over which a tread remembers."""
 
@@ -42,7 +44,7 @@ def fast_load(data: Data, name: str) -> Array:
     if data.time is None:
         return np.zeros((data.size, 0))
     load = data.get("normal_load")
-    change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.nominal.load)
+    change = (load - data.smooth("normal_load")) / np.maximum(load, _LEAST_LOAD * data.nominal.load)
     if not np.any(change):
         return np.zeros((data.size, 0))
     rates = [rate(data, data.running_mean(change, seconds)) for seconds in BANDS]

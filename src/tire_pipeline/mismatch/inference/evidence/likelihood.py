@@ -36,6 +36,7 @@ BACKGROUNDS = (0.3, 1.0)
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
 _ROUNDS_OF_CLIMBING = 4
+"""At most: each round finds the sizes of misfit and error at the coefficients of the round before."""
 _WIDER = 10.0
 """Times as wide as they are: from there priors with tails are tried, too. They can have a second mode, far
 out."""
@@ -237,7 +238,9 @@ class Likelihood:
         for o in every[0].own:
             different: dict[bytes, int] = {}
             which = [
-                np.array([different.setdefault(column.tobytes(), len(different)) for column in each.nuisance[o].T])
+                np.array(
+                    [different.setdefault(column.tobytes(), len(different)) for column in each.nuisance[o].T]
+                )
                 for each in every
             ]
             whole = np.array([np.frombuffer(column) for column in different]).T

@@ -23,6 +23,7 @@ EFFECTS_KEPT = 12
 PAIRS = 2 * EFFECTS_KEPT
 """Pairs of these that are fitted: to fit all 66 takes time, and the others have hardly any evidence."""
 _ROUNDS_OF_COUNTING = 8
+"""At most: each round counts beside what the count of the round before resolves."""
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
 
+_AS_MUCH = 0.4
+"""Part of the first place's mean difference from which a stretch of another channel is worth a sentence."""
 _WHOLE = 99.5
 """Percent: what would be rounded to the whole force."""
 
@@ -202,7 +204,7 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throug
 
 def _as_well(place: Located, top: Located) -> bool:
     """Whether a stretch of another axis adds information about the same difference."""
-    return place.mean * top.mean > 0.0 and min(place.own, 1.0) * abs(place.mean) > 0.4 * abs(top.mean)
+    return place.mean * top.mean > 0.0 and min(place.own, 1.0) * abs(place.mean) > _AS_MUCH * abs(top.mean)
 
 
 def _of_the_force(share: float) -> str:

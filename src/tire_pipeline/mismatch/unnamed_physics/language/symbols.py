@@ -18,7 +18,9 @@ Array = np.ndarray
 SPAN = 20.0
 """degC that one of ``h`` stands for."""
 _SLIP_DIFFERENCE = 2e-3
+"""rad and 1, to each side: of the slope that a reader of a sidecar repeats."""
 _LOAD_DIFFERENCE = 0.01
+"""Of the load, to each side: the same."""
 MEANING = {
     "s": "tan(slip_angle)",
     "k": "slip_ratio",
