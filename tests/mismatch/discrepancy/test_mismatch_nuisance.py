@@ -31,3 +31,18 @@ def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
     columns = make_nuisance(data).flexible["fx"]
     largest = max(np.abs(data.simulation.base[o]).max() for o in data.outputs)
     assert np.sqrt(np.mean(columns**2, axis=0)).max() < 10.0 * largest
+
+
+def test_a_shift_at_zero_slip_is_no_slope(tire, record):
+    """Where a force bends does not hang on ply steer: to either side it leaves the same covariance."""
+    recording = record(1)
+
+    def covariance(shift):
+        shifted = tire.replace(PVY1=tire.coefficients.get("PVY1", 0.0) + shift)
+        rows = make_nuisance(prepare(shifted, recording).data).flexible["fy"][::200]
+        size = rows @ rows.T
+        return size / np.trace(size)
+
+    plain = covariance(0.0)
+    for shift in (0.02, -0.02):
+        assert np.max(np.abs(covariance(shift) - plain)) < 0.05 * np.max(np.abs(plain))

@@ -33,6 +33,8 @@ _USED_BY_CAMBER = 0.3
 """Part of the misfit of Fy that the largest camber brings without slip, as it brings a part of the force."""
 _AT_REST = 0.1
 """Part of the misfit that is left where the force is zero."""
+_BENDS_BETWEEN = (0.005, 0.3)
+"""Slips between which the bend of a force over slip is looked for, rad and 1."""
 
 
 def flexible_form(
@@ -114,13 +116,19 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
 
 
 def _slip_at_half(data: Data, force: str) -> float:
-    """Slip at which the linear force would be the largest force: where the curve bends."""
-    slip = np.linspace(1e-3, 0.35, 200)
+    """Slip at which the linear force would be the largest force: where the curve bends.
+
+    Of the part of the force that changes its sign with slip: ply steer, conicity and other shifts at zero
+    slip are no slope.
+    """
+    least, most = _BENDS_BETWEEN
+    slip = np.linspace(0.0, most, ENOUGH_ROWS)[1:]
     zero = np.zeros_like(slip)
-    args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
-    f = np.abs(plain_forces(data.tire, camber=zero, normal_load=zero + data.nominal.load, **args)[force])
+    none = {**dict.fromkeys(FORCE_OF_SLIP, zero), "camber": zero, "normal_load": zero + data.nominal.load}
+    ahead, back = (plain_forces(data.tire, **{**none, SLIP_OF_FORCE[force]: s})[force] for s in (slip, -slip))
+    f = 0.5 * np.abs(ahead - back)
     k = max(f[0] / slip[0], 1e-9)
-    return float(np.clip(f.max() / k, 0.005, 0.3))
+    return float(np.clip(f.max() / k, least, most))
 
 
 class _Mirrored:
