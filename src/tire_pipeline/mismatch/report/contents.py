@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.effects.amounts import amount_with_interval
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.pages.first_letter import first_large
 from tire_pipeline.progress import under_way
 from tire_pipeline.tasks import one_thread
 
@@ -66,7 +67,7 @@ class Head:
     def text(self) -> str:
         """The three sentences: verdict and names; where and how much; what to do next."""
         middle = "; ".join(filter(None, [self.spot, self.size]))
-        sentences = [f"{part[:1].upper()}{part[1:]}." for part in (self.causes, middle) if part]
+        sentences = [f"{first_large(part)}." for part in (self.causes, middle) if part]
         return " ".join(filter(None, [*sentences, self.todo]))
 
     def beside(self, *notes: str) -> Head:

@@ -26,6 +26,7 @@ from tire_pipeline.mismatch.report.headline.spots import (
 )
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.pages.first_letter import first_small
 
 _RIVALS_LISTED = 3
 """The number of explanations that are named if each would do."""
@@ -110,7 +111,7 @@ def on_question(question: Question, told: Head) -> Head:
     told : Head
         What was found all the same.
     """
-    todo = f"Next, {question.todo[:1].lower()}{question.todo[1:]}; no corrected file is written until then."
+    todo = f"Next, {first_small(question.todo)}; no corrected file is written until then."
     if question.verdict:
         return Head(question.why, todo=todo)
     _, _, causes = told.causes.partition(_COMES_FROM)
@@ -363,7 +364,7 @@ def _as_it_is(fit: Mapping[str, OutputFit]) -> str:
 
 def _next(effects: Sequence[EffectReport], experiment: str, added: bool) -> str:
     if experiment:
-        return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
+        return f"Next, {in_words(first_small(experiment))}"
     if not effects:
         return ""
     if not added:
