@@ -158,8 +158,10 @@ def assembled(it: Explained) -> MismatchReport:
         told = head_of_moment(moment, fit, unnamed)
         following = told.todo
     else:
-        told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
-        told = told.beside(on_moment(moment, fit))
+        stated = () if prepared.question is None else prepared.question.stated
+        told = head(
+            verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added, stated
+        ).beside(on_moment(moment, fit))
     told = with_own_lag(told, fit, data.followed_relaxation, before).beside(
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
