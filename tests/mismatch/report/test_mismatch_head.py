@@ -43,9 +43,8 @@ OPEN = f"the recording agrees with the model only in other axes ({TURNED})"
 RIVALS = [("friction_scale", "wear"), ("stiffness_scale",)]
 
 
-def said(verdict, effects=(), left=NONE, unnamed=None, rivals=(), stated=()):
-    rest = {"unnamed": unnamed, "rivals": rivals, "stated": stated}
-    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", **rest)
+def said(verdict, effects=(), left=NONE, unnamed=None, rivals=()):
+    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", unnamed=unnamed, rivals=rivals)
 
 
 def sentences(text):
@@ -168,45 +167,6 @@ def test_a_share_that_a_force_follows_lies_between_nothing_and_all(felt, said):
 def test_what_to_do_next_is_something_to_do(effect):
     first = effect.experiment.split(" ")[0]
     assert first in ("", "record", "repeat", "hang", "look", "drive", "turn")
-
-
-def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():
-    told = HEADS["open"].text
-    assert told.startswith(f"Open: {OPEN}; as it was read, the difference comes from friction of the track")
-    assert told.endswith("Next, read it in other axes; no corrected file is written until then.")
-
-
-TURNED_AXES = Question(OPEN, "read it in other axes", stated=(TURNED,))
-SIGN = replace(
-    EFFECT,
-    name="sign_convention",
-    kind="artefact",
-    title=f"a channel with the other sign ({TURNED})",
-    evidence={"found": TURNED},
-)
-
-
-def test_an_open_question_says_once_that_a_channel_is_turned():
-    """ "Open: ... (fy has the other sign); ..., and from a channel with the other sign, a fault ..."."""
-    told = on_question(TURNED_AXES, said("ambiguous", [EFFECT, SIGN], stated=TURNED_AXES.stated)).text
-    assert told.count("other sign") == 1
-    assert told.startswith(f"Open: {OPEN}; beside that, the difference comes from friction of the track, ")
-    assert "mbiguous" not in told
-
-
-@pytest.mark.parametrize(("left", "rest"), [(NONE, ""), (LEFT, "; beside that, an unexplained residual")])
-def test_a_turned_channel_alone_is_no_cause_beside_the_question(left, rest):
-    told = on_question(TURNED_AXES, said("explained", [SIGN], left, stated=TURNED_AXES.stated)).text
-    assert told.startswith(f"Open: {OPEN}{rest}")
-    assert "the difference comes" not in told
-
-
-@pytest.mark.parametrize("case", ["agrees", "undecided", "unexplained"])
-def test_what_was_found_beside_an_open_question_has_no_verdict_of_its_own(case):
-    told = on_question(Question("the axes are open", "read it in other axes"), HEADS[case]).text
-    assert told.startswith("Open: the axes are open; as it was read, ")
-    assert "ndecided:" not in told
-    assert "read: " not in told
 
 
 @pytest.mark.parametrize("case", HEADS)
