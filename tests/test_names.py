@@ -338,3 +338,13 @@ def test_the_page_on_architecture_names_each_folder_and_module_at_the_top():
     there = {f"{path.parent.name}/" for path in ROOT.glob("*/__init__.py")}
     there |= {path.name for path in ROOT.glob("*.py") if path.stem not in KEDROS}
     assert there - set(page.translate(str.maketrans(":`", "  ")).split()) == set()
+
+
+def test_the_first_letter_of_a_sentence_is_made_large_in_one_place():
+    by_hand = [
+        name
+        for name, module in _written().items()
+        for each in _nodes(module)
+        if isinstance(each, ast.Call) and re.search(r"\[:1\]\.(upper|lower)\(\)$", ast.unparse(each))
+    ]
+    assert set(by_hand) == {"pages.first_letter"}

@@ -11,6 +11,7 @@ import click
 from tire_pipeline.command.options import FILE, check_target, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import DomainError
+from tire_pipeline.pages.first_letter import first_large
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -122,7 +123,7 @@ def _outcome(
     bands = said.get("bias_band", "")
     lines = [
         f"Translation of {file.name}, measured by {said['source']}, to {said['target']}: {said['verdict']}.",
-        *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
+        *([f"{first_large(str(said['reason']))}."] if said["reason"] else []),
         *(f"{change}." for change in said["changes"].split("; ") if change),
         *([_APPLIED] if said["changes"] and translated is not None else []),
         *([f"Bias of {said['source']} against {said['target']} (90% bands): {bands}."] if bands else []),

@@ -149,7 +149,7 @@ def _asked(report: MismatchReport, odd: Sequence[Apart]) -> MismatchReport:
     names = " and ".join(dict.fromkeys(each.recording for each in odd))
     question = Question(
         "; ".join(in_words(each) for each in odd),
-        f"Check what is different in {names} (load cell, set-up, surface, another tire), and explain what "
+        f"check what is different in {names} (load cell, set-up, surface, another tire), and explain what "
         "differs by itself",
         "unexplained" if report.verdict in ("agrees", "undecided") else "",
         short="recordings differ",

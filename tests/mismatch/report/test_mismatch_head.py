@@ -62,8 +62,8 @@ HEADS = {
     "unexplained": said("unexplained", left=LEFT),
     "unexplained, with an equation": said("unexplained", left=LEFT, unnamed=FOUND),
     "unexplained, by one of several": said("unexplained", left=LEFT, unnamed=FOUND, rivals=RIVALS),
-    "open": on_question(Question(OPEN, "Read it in other axes"), said("explained", [EFFECT])),
-    "unusable": on_question(Question("it carries no answer", "Look at it", "unusable"), said("unexplained")),
+    "open": on_question(Question(OPEN, "read it in other axes"), said("explained", [EFFECT])),
+    "unusable": on_question(Question("it carries no answer", "look at it", "unusable"), said("unexplained")),
 }
 
 
@@ -167,23 +167,6 @@ def test_a_share_that_a_force_follows_lies_between_nothing_and_all(felt, said):
 def test_what_to_do_next_is_something_to_do(effect):
     first = effect.experiment.split(" ")[0]
     assert first in ("", "record", "repeat", "hang", "look", "drive", "turn")
-
-
-def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():
-    told = HEADS["open"].text
-    assert told.startswith(f"Open: {OPEN}; as it was read, the difference comes from friction of the track")
-    assert told.endswith("Next, read it in other axes; no corrected file is written until then.")
-
-
-def test_an_open_question_says_once_which_channel_is_turned():
-    """It stood there twice, and the verdict a second time: "open: ...; as it was read: ambiguous: ..."."""
-    sign = replace(EFFECT, name="sign_convention", kind="artefact", title=f"a channel's sign ({TURNED})")
-    told = on_question(Question(OPEN, "Read it in other axes"), said("ambiguous", [EFFECT, sign])).text
-    assert told.count(TURNED) == 1
-    assert ", and from a channel's sign, a fault of the recording" in told
-    assert "mbiguous" not in told
-    plain = on_question(Question("the axes are open", "Read it in other axes"), HEADS["explained"]).text
-    assert "the difference comes from friction of the track, which the model leaves out" in plain
 
 
 @pytest.mark.parametrize("case", HEADS)

@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import ALIGNING_MOMENT, INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.going_on import GoingOn, goes_with_time
 from tire_pipeline.mismatch.corrected.holes import around_holes
 from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
@@ -77,6 +78,8 @@ class CorrectedModel:
         (:func:`.proof.never_worse.confirmed_part`).
     rolled : WheelWay, optional
         Angle of the wheel, if an effect follows it.
+    going_on : GoingOn, optional
+        How effects go on after the recording that was explained, if one goes with time.
 
     See Also
     --------
@@ -117,6 +120,7 @@ class CorrectedModel:
     instead: tuple[tuple[float, tuple[Change, ...]], ...] = ()
     part: float = 1.0
     rolled: WheelWay | None = None
+    going_on: GoingOn | None = None
 
     def __repr__(self) -> str:
         put_in = [name for name, _ in self.changes]
@@ -151,8 +155,9 @@ class CorrectedModel:
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
             what ``tire.forces`` gives at the rows as they are. Where several explanations are open, a force
             changes by what they agree on. ``attrs["notes"]`` says where physics without a name was outside of
-            its range and faded, and where the angle of the wheel is not known: what comes back once a turn is
-            left out there. Rows without a number in an input are NaN.
+            its range and faded, where the angle of the wheel is not known (what comes back once a turn is
+            left out there), and what is after the recording that was explained: there causes that go with
+            time stay at its end. Rows without a number in an input are NaN.
 
         Raises
         ------
@@ -179,7 +184,8 @@ class CorrectedModel:
             each = [forces, *(self._simulated(data, changes) for _, changes in others)]
             whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
             forces = {name: partly(start, whole[name], self.part) for name, start in plain.items()}
-        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
+        going_on = [] if self.going_on is None else self.going_on.note(data, self.changes)
+        notes = [*self._of_unknown_phase(data), *going_on, *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
@@ -191,7 +197,13 @@ class CorrectedModel:
         return out
 
     def _simulated(self, data: Data, changes: Sequence[Change]) -> dict[str, Array]:
-        """Return forces, N, and moments, N m, with effects added."""
+        """Return forces, N, and moments, N m, with effects added, as far as they go on."""
+        lasting = [change for change in changes if not goes_with_time(change, data)]
+        if self.going_on is not None and len(lasting) < len(changes) and self.going_on.after(data).any():
+            alone = replace(self, going_on=None)
+            rest, whole = (alone._simulated(data, each) for each in (lasting, changes))
+            part = self.going_on.part_at(data)
+            return {name: rest[name] + part * (force - rest[name]) for name, force in whole.items()}
         forces = simulate(data, changes)
         moved = tuple(name for name in self.moments if name not in self.as_filed)
         for names, added in ((moved, changes), (self.as_filed, ())):
@@ -319,7 +331,7 @@ class CorrectedModel:
             start=start,
             present={c for c in channels if c in recording.columns},
         )
-        return Data.of(
+        whole = Data.of(
             self.tire,
             recorded,
             beside=beside,
@@ -327,6 +339,7 @@ class CorrectedModel:
             reference=self.reference,
             way=way,
         )
+        return whole if self.going_on is None else self.going_on.put_into(whole)
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
         """Return the tire model with all effects that its format has a place for, and the rest.

@@ -134,8 +134,9 @@ def open_axes(
     """
     signs = [f for f in findings if f.axes and f.channel != "normal_load"]
     if signs:
-        said = "; ".join(f.text for f in signs)
-        return Question(f"the recording agrees with the model only in other axes ({said})", _READ_AGAIN)
+        stated = tuple(f.text for f in signs)
+        why = f"the recording agrees with the model only in other axes ({'; '.join(stated)})"
+        return Question(why, _READ_AGAIN, stated=stated)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
     not_stated = any(text.startswith(NOT_STATED) for text in assumed)

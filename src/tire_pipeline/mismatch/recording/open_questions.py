@@ -14,7 +14,7 @@ class Question:
     why : str
         What is open, with figures.
     todo : str
-        What settles it.
+        What settles it; goes on with a sentence.
     verdict : str
         The report's verdict if nothing can be explained before it is settled; "" if effects can be looked
         for all the same, and only no corrected file may be written.
@@ -24,6 +24,8 @@ class Question:
         Whether it stays open unless they answer it. If not, it is asked only if it is likelier than any set.
     short : str
         What is open in two words, beside a verdict.
+    stated : tuple of str
+        Texts of the findings that ``why`` states: they are no causes beside it.
     """
 
     why: str
@@ -32,3 +34,17 @@ class Question:
     by_sets: bool = False
     likely: bool = True
     short: str = "axes open"
+    stated: tuple[str, ...] = ()
+
+    def beside(self, causes: str) -> str:
+        """Return the question in a sentence without its full stop, before what was found all the same.
+
+        Parameters
+        ----------
+        causes : str
+            A clause; "" if nothing was.
+        """
+        if self.verdict:
+            return self.why
+        found = f"{'beside that' if self.stated else 'as it was read'}, {causes}" if causes else ""
+        return "; ".join(filter(None, [f"open: {self.why}", found]))

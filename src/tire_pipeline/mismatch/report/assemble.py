@@ -12,6 +12,7 @@ import pandas as pd
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
+from tire_pipeline.mismatch.corrected.going_on import going_on
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay, way_at_each
 from tire_pipeline.mismatch.effects import catalogue
@@ -24,6 +25,7 @@ from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.held_out import made_worse, prove, prove_moments, recorded_moments
+from tire_pipeline.mismatch.proof.later_sweeps import confirmed_later
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
@@ -158,8 +160,10 @@ def assembled(it: Explained) -> MismatchReport:
         told = head_of_moment(moment, fit, unnamed)
         following = told.todo
     else:
-        told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
-        told = told.beside(on_moment(moment, fit))
+        stated = () if prepared.question is None else prepared.question.stated
+        told = head(
+            verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added, stated
+        ).beside(on_moment(moment, fit))
     told = with_own_lag(told, fit, data.followed_relaxation, before).beside(
         on_withheld(withheld) if added else "",
         on_part(put_in.names, model.part),
@@ -264,7 +268,8 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Gu
     if allowed.fit.names and not _no_worse(it, model, plain):
         nothing = it.analysis.fit.part([], it.analysis.system)
         return plain, Guarded(nothing, 1.0, residual(it.analysis.data, []))
-    return model, allowed
+    later = partial(confirmed_later, it.analysis, allowed.fit)
+    return replace(model, going_on=going_on(it.prepared.data, model.changes, it.rolled, later)), allowed
 
 
 def _instead(it: Explained, put_in: Fit) -> list[tuple[float, tuple[Change, ...]]]:

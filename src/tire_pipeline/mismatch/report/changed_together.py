@@ -11,6 +11,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.model.channels import CLASSES
 from tire_pipeline.mismatch.report.contents import EffectReport
+from tire_pipeline.pages.first_letter import first_large
 
 Array = np.ndarray
 _TOLD = 0.9
@@ -86,6 +87,6 @@ def _sentence(title: str, channel: str, others: Sequence[str]) -> str:
     labels = " and ".join(SHOWN_UNITS[c].label for c in others)
     own = SHOWN_UNITS[channel].label
     return (
-        f"{labels[:1].upper()}{labels[1:]} changed in the same rows as {own}: that {title} is the cause "
+        f"{first_large(labels)} changed in the same rows as {own}: that {title} is the cause "
         f"rests on the form of its force alone. Record sweeps in which only one of them changes."
     )

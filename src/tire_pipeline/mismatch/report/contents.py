@@ -14,7 +14,9 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_interval
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.pages.first_letter import first_large
 from tire_pipeline.progress import under_way
 from tire_pipeline.tasks import one_thread
 
@@ -37,7 +39,7 @@ class Head:
     Parameters
     ----------
     causes : str
-        Verdict and what was found; a sentence without its full stop.
+        What was found; a sentence without its full stop, or a clause after the verdict.
     spot : str
         Where recording and simulation differ; a clause, "" if that is not informative.
     size : str
@@ -48,6 +50,10 @@ class Head:
         What a reader must know beside it, the most important first; each in sentences.
     equation : str
         What is known about the unexplained residual, in sentences; "" if nothing is.
+    verdict : str
+        Stands before the causes; "" where they are a sentence by themselves.
+    question : Question, optional
+        An open question, which comes first in place of the verdict.
     """
 
     causes: str
@@ -56,6 +62,8 @@ class Head:
     todo: str = ""
     notes: tuple[str, ...] = ()
     equation: str = ""
+    verdict: str = ""
+    question: Question | None = None
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -65,8 +73,11 @@ class Head:
     @property
     def text(self) -> str:
         """The three sentences: verdict and names; where and how much; what to do next."""
+        first = ": ".join(filter(None, [self.verdict, self.causes]))
+        if self.question is not None:
+            first = self.question.beside(self.causes)
         middle = "; ".join(filter(None, [self.spot, self.size]))
-        sentences = [f"{part[:1].upper()}{part[1:]}." for part in (self.causes, middle) if part]
+        sentences = [f"{first_large(part)}." for part in (first, middle) if part]
         return " ".join(filter(None, [*sentences, self.todo]))
 
     def beside(self, *notes: str) -> Head:

@@ -23,6 +23,7 @@ from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, largest
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.unnamed_physics.language.symbols import SPAN
+from tire_pipeline.pages.first_letter import first_large
 
 Array = np.ndarray
 _SLOW_PERIOD, _FAST_PERIOD = 10.0, 1.0
@@ -75,7 +76,7 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     settled = [q for q, gain in zip(open_names, gains[best], strict=True) if gain >= 0.5 * q.entropy]
     if settled:  # more than it leaves open
         what = ", and ".join(q.text for q in settled)
-        return f"{what[:1].upper()}{what[1:]}, record {sweeps[best].text}."
+        return f"{first_large(what)}, record {sweeps[best].text}."
     if answer.rivals:
         return ""
     return _own_experiment(open_names[0].names[0])
@@ -84,7 +85,7 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
 def _own_experiment(name: str) -> str:
     """Return the experiment of an effect as a sentence; nothing where it has none."""
     text = catalogue()[name].experiment
-    return f"{text[:1].upper()}{text[1:]}." if text else ""
+    return f"{first_large(text)}." if text else ""
 
 
 @dataclass(frozen=True)

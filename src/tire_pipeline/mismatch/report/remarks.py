@@ -10,6 +10,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.words import newtons
+from tire_pipeline.pages.first_letter import first_large
 
 _NOTE = re.compile(rf"({'|'.join(INPUT_CHANNELS)}) is (?:.+ and )?left out: (.+?)(?:\. (?=[A-Z]).*)?")
 
@@ -71,7 +72,7 @@ def on_expected(names: Sequence[str]) -> str:
         ("act", "them", "their effects are") if len(names) > 1 else ("acts", "it", "its effect is")
     )
     return (
-        f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
+        f"{first_large(titles)} {acts} on every tire, and the tire model has no coefficient for "
         f"{it}: in this recording {is_} too small to be distinguished from the misfit of the formula."
     )
 

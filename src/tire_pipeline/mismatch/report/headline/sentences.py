@@ -26,17 +26,16 @@ from tire_pipeline.mismatch.report.headline.spots import (
 )
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.pages.first_letter import first_small
 
 _RIVALS_LISTED = 3
 """The number of explanations that are named if each would do."""
 
-_COMES_FROM = "the difference comes "
 _TRY_IT = "Next, test the corrected model on another recording before you use it."
 _RECORD_MORE = "Next, record more sweeps where it shows: then it can be proved, and corrected."
 _RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
 _SAID_IF_UNDECIDED = (
-    "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
-    "does not show"
+    "no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording does not show"
 )
 _NO_NAME = "a cause that the catalogue does not have"
 _EITHER = "a fault of the recording or something that the model leaves out"
@@ -60,6 +59,7 @@ def head(
     unnamed: UnnamedReport | None = None,
     rivals: Sequence[Sequence[str]] = (),
     added: bool = True,
+    stated: Sequence[str] = (),
 ) -> Head:
     """Return the head of a report.
 
@@ -76,6 +76,8 @@ def head(
         a name.
     added : bool
         Whether anything of what is named is in the corrected model.
+    stated : sequence of str
+        Texts of findings that an open question states: they are no causes beside it.
     """
     if verdict == "agrees":
         return _agreement({o: f for o, f in fit.items() if o in PLANE_FORCES})
@@ -86,7 +88,8 @@ def head(
     else:
         corrected = bool(effects and added and fit)
         partly = corrected and fit[corrected_most(fit)].recovered < MORE_THAN_HALF
-        causes = _causes(verdict, effects, remainder, ranges, rivals, partly=partly)
+        rest = [e for e in effects if e.evidence.get("found") not in stated]
+        causes = _causes(rest, remainder, ranges, rivals, partly=partly, named=bool(effects))
         size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
     apart = _SEVERAL_APART if _several_open(effects) else ""
     notes = (apart, on_placeless(effects, ranges), _more_left(remainder) if effects else "")
@@ -97,6 +100,7 @@ def head(
         todo=_next(effects, next_experiment, added),
         notes=tuple(filter(None, notes)),
         equation=on_unnamed(unnamed, verdict, rivals),
+        verdict=verdict if effects or verdict == "undecided" else "",
     )
 
 
@@ -110,13 +114,8 @@ def on_question(question: Question, told: Head) -> Head:
     told : Head
         What was found all the same.
     """
-    todo = f"Next, {question.todo[:1].lower()}{question.todo[1:]}; no corrected file is written until then."
-    if question.verdict:
-        return Head(question.why, todo=todo)
-    _, _, causes = told.causes.partition(_COMES_FROM)
-    stated = "".join(question.why.partition(" (")[1:])  # not a second time among the causes
-    read = f", {_COMES_FROM}{causes.replace(stated, '')}" if causes else f": {told.causes}"
-    return replace(told, causes=f"open: {question.why}; as it was read{read}", todo=todo)
+    todo = f"Next, {question.todo}; no corrected file is written until then."
+    return replace(Head("") if question.verdict else told, question=question, todo=todo)
 
 
 def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) -> Head:
@@ -269,22 +268,22 @@ def _than_usual(left: Remainder) -> str:
 
 
 def _causes(
-    verdict: str,
     effects: Sequence[EffectReport],
     remainder: Remainder,
     ranges: Ranges,
     rivals: Sequence[Sequence[str]],
     *,
     partly: bool,
+    named: bool,
 ) -> str:
-    """The verdict, the causes, whether they are a smaller part of it, and the unexplained residual."""
+    """The causes, whether they are a smaller part of it, and the unexplained residual."""
     left = _what_is_left(remainder, ranges)
-    if not effects and rivals:
+    if not named and rivals:
         titles = (" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED])
         sets = [each or _NO_NAME for each in titles]
         sets += ["others"] if len(rivals) > len(sets) else []
         return f"I can't tell which of these explains the difference{left}: {listed(sets)}"
-    if not effects:
+    if not named:
         return f"I can't tell: no effect of the catalogue explains the difference{left}"
     several = _several_open(effects)
     physics, faults, either = (
@@ -300,8 +299,9 @@ def _causes(
         parts.append(f"from {beside.join(faults)}, {fault} of the recording")
     if either:
         parts.append(f"from {beside.join(either)}{'' if several else f': {_EITHER}'}")
-    text = f"{verdict}: {_COMES_FROM}{'in part ' if partly else ''}{', and '.join(parts)}"
-    return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
+    from_all = f"the difference comes {'in part ' if partly else ''}{', and '.join(parts)}" if parts else ""
+    rest = f"an unexplained residual remains{left}" if remainder.significant else ""
+    return "; ".join(filter(None, [from_all, rest]))
 
 
 def _several_open(effects: Sequence[EffectReport]) -> bool:
@@ -363,7 +363,7 @@ def _as_it_is(fit: Mapping[str, OutputFit]) -> str:
 
 def _next(effects: Sequence[EffectReport], experiment: str, added: bool) -> str:
     if experiment:
-        return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
+        return f"Next, {in_words(first_small(experiment))}"
     if not effects:
         return ""
     if not added:

@@ -12,6 +12,7 @@ from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.words import ends, newtons, place
+from tire_pipeline.pages.first_letter import first_large
 
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
@@ -107,7 +108,7 @@ def on_placeless(effects: Sequence[EffectReport], ranges: Ranges) -> str:
     titles = " and ".join(effect.title for effect in everywhere)
     have, their, act = ("have", "their", "they act") if len(everywhere) > 1 else ("has", "its", "it acts")
     return (
-        f"{titles[:1].upper()}{titles[1:]} {have} no place of {their} own: {act} over at least half of the "
+        f"{first_large(titles)} {have} no place of {their} own: {act} over at least half of the "
         "recorded range of every channel."
     )
 

@@ -1,0 +1,143 @@
+"""What goes with time, after the recording that was explained: one clock, and states that stay at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.states import States
+
+Array = np.ndarray
+
+
+def goes_with_time(change: Change, data: Data) -> bool:
+    """Whether an effect's state follows the clock or accumulated work, and no channel that was recorded."""
+    effect = catalogue()[change[0]]
+    return effect.family == "slow" and data.measured.isdisjoint(effect.drivers(""))
+
+
+def going_on(
+    data: Data, changes: Sequence[Change], rolled: WheelWay | None, confirmed: Callable[[list[int]], float]
+) -> GoingOn | None:
+    """Return how effects go on after a recording; None if none of them goes with time.
+
+    Parameters
+    ----------
+    data : Data
+        All of the recording that was explained.
+    changes : sequence of (name, parameters)
+    rolled : WheelWay, optional
+        Whose times are those of the recorded rows.
+    confirmed : callable
+        Which of the effects go with time, by number -> the part that is added.
+    """
+    own = [i for i, change in enumerate(changes) if goes_with_time(change, data)]
+    if not own or rolled is None:
+        return None
+    return GoingOn(float(rolled.time[-1]), data.time_line, data.step, data.states.power, confirmed(own))
+
+
+@dataclass(frozen=True)
+class GoingOn:
+    """How what goes with time goes on from the recording that was explained.
+
+    Parameters
+    ----------
+    last : float
+        Time of its last sample, s.
+    time, step : ndarray, shape (n,)
+        Of the samples that were weighed, s.
+    power : ndarray, shape (n,), optional
+        Friction power there, W; None if it is not known.
+    part : float
+        Part of the change that is added after it, as far as earlier sweeps predicted later ones
+        (:func:`.proof.later_sweeps.confirmed_later`).
+    """
+
+    last: float
+    time: Array
+    step: Array
+    power: Array | None
+    part: float
+
+    def put_into(self, data: Data) -> Data:
+        """Return a recording to predict with states that go by the clock of the one that was explained."""
+        known = data.states.power is not None and self.power is not None
+        return replace(data, states=_StatesGoingOn(data.simulation, self)) if known else data
+
+    def after(self, data: Data) -> Array:
+        """Return which samples are after the recording that was explained, bool, shape (n,)."""
+        return np.zeros(data.size, bool) if data.time is None else data.time > self.last
+
+    def part_at(self, data: Data) -> Array:
+        """Return the part that is added at each sample, shape (n,)."""
+        return np.where(self.after(data), self.part, 1.0)
+
+    def note(self, data: Data, changes: Sequence[Change]) -> list[str]:
+        """Say what is added after the recording that was explained, if there is anything."""
+        titles = [catalogue()[change[0]].title for change in changes if goes_with_time(change, data)]
+        share = float(np.mean(self.after(data)))
+        if not titles or not share:
+            return []
+        return [
+            f"{' and '.join(titles)}: {share:.1%} of the samples are after the recording that was explained; "
+            f"nothing goes further there than it was at the end, and {self.part:.0%} of the change is added, "
+            "as far as earlier sweeps predicted later ones"
+        ]
+
+
+@dataclass(frozen=True, eq=False)
+class _StatesGoingOn(States):
+    """States that begin where the recording that was explained had them at this time, and end where it ended.
+
+    A recording that follows it does not begin with a new tire while drifts and surfaces stay at their end.
+    Nobody has seen what more work or more heat would do.
+    """
+
+    so_far: GoingOn
+
+    @cached_property
+    def _earlier(self) -> Array:
+        """Samples of the explained recording before this one begins, bool."""
+        return self.so_far.time < self._recording.time_line[0]
+
+    @property
+    def _power_before(self) -> Array:
+        assert self.so_far.power is not None
+        return self.so_far.power[self._earlier]
+
+    @cached_property
+    def work(self) -> Array:
+        """Friction work so far over all of the explained recording, at most 1."""
+        done = np.sum(self._power_before * self.so_far.step[self._earlier])
+        own = np.cumsum(self._known_power * self._recording.step)
+        return np.minimum((done + own) / self.scales.work, 1.0)
+
+    def heat(self, lag: float) -> Array:
+        """Return the heat as :meth:`States.heat`, at most what it was in the explained recording."""
+        before, step = self._power_before, self._recording.step.copy()
+        if before.size:
+            step[0] = self._recording.time_line[0] - self.so_far.time[self._earlier][-1]
+        own = _followed(
+            np.concatenate([before, self._known_power]),
+            np.concatenate([self.so_far.step[self._earlier], step]),
+            lag,
+        )[before.size :]
+        assert self.so_far.power is not None
+        most = float(_followed(self.so_far.power, self.so_far.step, lag).max())
+        return np.minimum(own, most) * np.hypot(1.0, lag / self.scales.time_span) / self.scales.power
+
+
+def _followed(power: Array, step: Array, lag: float) -> Array:
+    """Return a power from a cold start, followed with a lag of first order."""
+    power, first = power.copy(), np.zeros(power.size, bool)
+    power[0], first[0] = 0.0, True
+    return np.asarray(first_order(power, 1.0 - np.exp(-step / max(lag, 1e-9)), first))
