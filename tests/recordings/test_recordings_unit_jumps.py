@@ -57,6 +57,17 @@ def test_friction_is_no_unit(after):
     assert unit_jumps(sweeps(after)) == []
 
 
+@pytest.mark.parametrize(
+    ("unit", "changes"), [("ft-lb", 1.36), ("ft-lb", 1 / 1.36), ("N-m", 1.36), ("N-m", 9.8)]
+)
+def test_a_moment_that_changes_by_a_small_ratio_is_no_unit(unit, changes):
+    """Camber, or the other side of the tire, change Mz by as much as foot-pounds are newton metres."""
+    table = sweeps()
+    table["mz"] = 0.03 * table["fy"] * np.where(np.arange(len(table)) < 1000, 1.0, changes)
+    table.attrs["file_units"] = {"mz": unit}
+    assert unit_jumps(table) == []
+
+
 def test_nothing_is_explained_from_a_channel_in_two_units():
     prepared = prepare(TIRE, scaled("fy", 0.2248))
     assert prepared.stopped == "unusable"

@@ -95,6 +95,18 @@ def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit, draws):
         assert found.parameters["ratio"][0] == pytest.approx(1.0 / unit)
 
 
+@pytest.mark.parametrize(("unit", "said"), [(4.4482216, "lbf"), (9.80665, "kgf")])
+def test_load_and_force_in_one_other_unit_are_asked_about(tire, unit, said, draws):
+    """They were another tire's, or another change of friction with load: forces go nearly with the load."""
+    for seed in draws:
+        points = a_dozen_points(tire, seed, share=0.01)
+        assert not any("were taken for" in q.why for q in prepare(tire, points).questions)
+        scaled = points.assign(fy=points["fy"] / unit, normal_load=points["normal_load"] / unit)
+        (question,) = prepare(tire, scaled).questions
+        assert f"normal_load and fy are in {said}, and were taken for N" in question.why
+        assert "state it" in question.todo
+
+
 @pytest.mark.parametrize("turned", ["slip_angle", "fy"])
 def test_a_dozen_points_are_enough_for_a_sign_that_is_wrong_throughout(tire, turned, draws):
     """Which of both is turned they do not tell: the finding names one, and the other beside it."""
