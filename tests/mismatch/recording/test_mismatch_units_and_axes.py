@@ -1,5 +1,7 @@
 """Before any explanation: the units and axes that a recording must be in."""
 
+from functools import partial
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -10,6 +12,8 @@ from weighed import all_but, without_visible
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae
+from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
 
@@ -193,6 +197,17 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
     settled = explain_mismatch(tire, read_recording(path, axes="ISO"), without=few)
     assert settled.corrected.question is None
     assert settled.corrected.to_tir(tmp_path / "corrected.tir").exists()
+
+
+@pytest.mark.parametrize("stiffer", [1.0, 1.15, 1.3])
+def test_another_stiffness_does_not_settle_the_axes(tire, stiffer):
+    """A stiffer tire in SAE axes, read as ISO, was an offset of the slip angle, and no axes were open."""
+    recorded = cambered(tire.replace(PKY1=stiffer * tire.coefficients["PKY1"]), 1)
+    wrong = misread(recorded, ("slip_angle", "fy"), 1.0)
+    channels = {name: wrong[name].to_numpy() for name in wrong}
+    assert not excludes_sae(channels, partial(forces_at, leaning(tire)))
+    right = {name: recorded[name].to_numpy() for name in recorded}
+    assert excludes_sae(right, partial(forces_at, leaning(tire)))
 
 
 @pytest.mark.slow
