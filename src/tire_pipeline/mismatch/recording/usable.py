@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.magic_formula.fitting.report.verdict import MOST_LEFT
 from tire_pipeline.mismatch.effects.sensor.repairs import unexplained
 from tire_pipeline.mismatch.effects.sensor.unit_error import FORCE_FACTORS, inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
@@ -28,8 +29,6 @@ LEAST = 0.5
 """Less than half: most of the force comes from something other than the recorded slip. In the real
 recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
 0.94."""
-_OF_FILE = 0.1
-"""RMS difference over the RMS force, at most, of a file and a recording of its tire in the right units."""
 _FAR_BETTER = 0.1
 """Squared difference in the right units over that in the wrong ones, at most."""
 _PLANNED = (1.0 / 3.0, 1.7)
@@ -234,7 +233,7 @@ def in_another_unit(tire: Any, arrays: Mapping[str, Array]) -> Question | None:
         for factor, (of, taken_for) in ((1.0 / base, units), (base, units[::-1])):
             if _at_its_loads(tire, arrays["normal_load"] * factor, arrays["normal_load"]):
                 before, after = unexplained(arrays, simulate, dict.fromkeys(names, factor), plain)
-                if before > _OF_FILE**2 > after and after < min(best[1], _FAR_BETTER * before):
+                if before > MOST_LEFT**2 > after and after < min(best[1], _FAR_BETTER * before):
                     best = (before, after, of, taken_for)
     before, after, of, taken_for = best
     if not of:
