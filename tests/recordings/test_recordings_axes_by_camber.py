@@ -1,4 +1,4 @@
-"""Axes that a file does not state, told by the force of a leaning wheel."""
+"""Axes of a file: stated, told by the force of a leaning wheel, and those in which Fy rises with slip."""
 
 import numpy as np
 import pandas as pd
@@ -52,3 +52,25 @@ def test_with_a_positive_load_the_axes_are_not_changed_but_the_check_tells(tmp_p
     recording = read_recording(file)
     np.testing.assert_allclose(recording["fy"], -fy, atol=1e-6)
     assert "camber_of_other_sign" in {issue.name for issue in check_recording(recording)}
+
+
+@pytest.mark.parametrize("spelt", ["adapted SAE", "adapted_sae"])
+def test_adapted_sae_axes_are_read_and_told(tmp_path, spelt):
+    """Pacejka's axes: y to the right, and a slip angle that causes a side force of its own sign."""
+    file, fy = written(tmp_path, "ISO", of_load=1.0)
+    table = pd.read_csv(file)
+    table = table.assign(**{"FY [N]": -fy, "MZ [Nm]": 0.03 * fy, "simulated_fy [N]": -fy})
+    table.to_csv(file, index=False)
+    assert "side_force_of_other_sign" in {issue.name for issue in check_recording(read_recording(file))}
+    recording = read_recording(file, axes=spelt)
+    for name, right in (("fy", fy), ("simulated_fy", fy), ("mz", -0.03 * fy)):
+        np.testing.assert_allclose(recording[name], right, atol=1e-6)
+    np.testing.assert_allclose(np.degrees(recording["slip_angle"]), table["SA [deg]"], atol=1e-6)
+    assert "side_force_of_other_sign" not in {issue.name for issue in check_recording(recording)}
+
+
+def test_simulated_forces_are_in_the_axes_of_the_recorded_ones(tmp_path):
+    file, fy = written(tmp_path, "SAE", of_load=1.0)
+    table = pd.read_csv(file)
+    table.assign(**{"simulated_fy [N]": -fy}).to_csv(file, index=False)
+    np.testing.assert_allclose(read_recording(file, axes="SAE")["simulated_fy"], fy, atol=1e-6)

@@ -57,6 +57,27 @@ def test_friction_is_no_unit(after):
     assert unit_jumps(sweeps(after)) == []
 
 
+@pytest.mark.parametrize(
+    ("unit", "changes"), [("ft-lb", 1.36), ("ft-lb", 1 / 1.36), ("N-m", 1.36), ("N-m", 9.8)]
+)
+def test_a_moment_that_changes_by_a_small_ratio_is_no_unit(unit, changes):
+    """Camber, or the other side of the tire, change Mz by as much as foot-pounds are newton metres."""
+    table = sweeps()
+    table["mz"] = 0.03 * table["fy"] * np.where(np.arange(len(table)) < 1000, 1.0, changes)
+    table.attrs["file_units"] = {"mz": unit}
+    assert unit_jumps(table) == []
+
+
+def test_a_step_of_a_load_in_kilograms_is_no_pound():
+    """From 2,500 to 5,500 N is the ratio of the two units; a saturated slip stiffness is the same at both."""
+    angle = np.tile(0.05 * np.sin(np.linspace(0.0, 2.0 * np.pi, 500)), 4)
+    load = np.repeat([2500.0, 5500.0], 1000)
+    fy = TIRE.replace(PKY2=1.0).forces(slip_angle=angle, normal_load=load, limits="ignore").fy
+    table = pd.DataFrame({"slip_angle": angle, "normal_load": load, "fy": fy})
+    table.attrs["file_units"] = {"normal_load": "kg", "fy": "kg"}
+    assert unit_jumps(table) == []
+
+
 def test_nothing_is_explained_from_a_channel_in_two_units():
     prepared = prepare(TIRE, scaled("fy", 0.2248))
     assert prepared.stopped == "unusable"

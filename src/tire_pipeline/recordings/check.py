@@ -26,6 +26,7 @@ from tire_pipeline.recordings.physical_signs import (
     moment_beyond_reach,
     moment_of_other_sign,
     side_force_away_from_the_lean,
+    side_force_with_the_slip,
     slip_too_small,
 )
 from tire_pipeline.recordings.slip_definition import slip_ratio_defined_otherwise
@@ -226,7 +227,12 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
     issues += slip_ratio_defined_otherwise(frame) + slip_too_small(frame) + moment_beyond_reach(frame)
-    return issues + moment_of_other_sign(frame) + side_force_away_from_the_lean(frame)
+    return [
+        *issues,
+        *moment_of_other_sign(frame),
+        *side_force_with_the_slip(frame),
+        *side_force_away_from_the_lean(frame),
+    ]
 
 
 def _slip_not_measured(frame: pd.DataFrame) -> list[Issue]:

@@ -15,7 +15,6 @@ from tire_pipeline.recordings.conventions.plausible import FORCE_OVER_LOAD, plau
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
-_OF_TRAIL = ("slip_angle", "normal_load", "fy", "mz")
 _SMALL_PART = 0.33
 """Slip angles up to this part of the largest are small: the moment has its peak near that."""
 STRAIGHT = 0.5
@@ -34,20 +33,8 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
     frame : DataFrame
         Canonical columns.
     """
-    columns = _columns(frame, _OF_TRAIL)
-    if not columns:
-        return []
-    slip, load, fy, mz = columns
-    good = np.isfinite(slip) & np.isfinite(fy) & np.isfinite(mz) & (np.abs(load) > 0.0)
-    if "slip_ratio" in frame:
-        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > PURE_SLIP_RATIO)
-    if not good.any():
-        return []
-    good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
-    if np.sum(good) < FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
-        return []
-    of_force, of_moment = (_slope(slip[good], y[good] / load[good]) for y in (fy, mz))
-    if of_force * of_moment <= 0.0:
+    slopes = _slopes_at_small_slip(frame, ("fy", "mz"))
+    if not slopes or slopes[0] * slopes[1] <= 0.0:
         return []
     return [
         Issue(
@@ -56,6 +43,28 @@ def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
             "mz, beside fy at small slip angles",
             "no tire turns the wheel out of its run: bring mz and fy to one axis system, or turn the sign of "
             "mz in the file",
+        )
+    ]
+
+
+def side_force_with_the_slip(frame: pd.DataFrame) -> list[Issue]:
+    """Report a side force that rises with the slip angle: it falls in ISO W and in SAE axes.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    slopes = _slopes_at_small_slip(frame, ("fy",))
+    if not slopes or slopes[0] <= 0.0:
+        return []
+    return [
+        Issue(
+            "side_force_of_other_sign",
+            "warning",
+            "fy, which rises with the slip angle",
+            'in ISO and in SAE axes it falls: the file is in adapted SAE axes (axes="adapted SAE"), or fy or '
+            "slip_angle has the other sign",
         )
     ]
 
@@ -135,6 +144,23 @@ def slip_too_small(frame: pd.DataFrame) -> list[Issue]:
             )
             issues.append(Issue("implausible_stiffness", "warning", where, todo))
     return issues
+
+
+def _slopes_at_small_slip(frame: pd.DataFrame, outputs: Sequence[str]) -> list[float]:
+    """Return the slopes of outputs over the load at small slip angles; nothing for too few rows."""
+    columns = _columns(frame, ("slip_angle", "normal_load", *outputs))
+    if not columns:
+        return []
+    slip, load, *sizes = columns
+    good = np.all(np.isfinite([slip, *sizes]), axis=0) & (np.abs(load) > 0.0)
+    if "slip_ratio" in frame:
+        good &= ~(np.abs(pd.to_numeric(frame["slip_ratio"], errors="coerce")).to_numpy() > PURE_SLIP_RATIO)
+    if not good.any():
+        return []
+    good &= np.abs(slip) <= _SMALL_PART * np.quantile(np.abs(slip[good]), 0.99)
+    if np.sum(good) < FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
+        return []
+    return [_slope(slip[good], y[good] / np.abs(load[good])) for y in sizes]
 
 
 def _columns(frame: pd.DataFrame, names: Sequence[str]) -> list[np.ndarray]:

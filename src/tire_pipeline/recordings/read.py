@@ -61,9 +61,10 @@ def read_recording(
         Of the file.
     format : {"TYDEX", "CSV", "MDF4", "MAT", "Parquet"}, optional
         Left out: by content, else by suffix.
-    axes : {"ISO", "SAE"}, optional
+    axes : {"ISO", "SAE", "adapted SAE"}, optional
         Axes of the file if its names do not state them (TYDEX names do). "SAE" (J670e: y to the
-        right, z down) mirrors slip_angle, fy, my and mz. Left out: ISO W is assumed, and `attrs` say so.
+        right, z down) mirrors slip_angle, fy, my and mz, "adapted SAE" (Pacejka's book) the same but
+        for slip_angle. Left out: ISO W is assumed, and `attrs` say so.
     units, names : mapping, optional
         By the file's channel name, with or without the unit in it: its unit (over what the file says), the
         column that it is. By a column that the file lacks: the number that it was, as ``{"slip_angle": 0}``.

@@ -21,8 +21,13 @@ _JUMP_UNITS = {
     "ratio": ("-", "%"),
     "pressure": ("Pa", "kPa", "bar", "psi"),
 }
-"""Dimension -> units in which recordings come. Not in here are ratios that friction can change by:
-foot-pounds (1.36), and kilograms (9.8), as from dry road to ice."""
+"""Dimension -> units in which recordings come."""
+_BY_FRICTION = tuple(
+    find_unit(one).factor / find_unit(other).factor  # type: ignore[union-attr]
+    for one, other in (("ft-lb", "N-m"), ("kgf", "lbf"), ("kgf", "N"))
+)
+"""Ratios that are told as no unit, whichever of the two a file states: friction, camber or the sign of the
+slip may change a force or a moment by as much (1.36, 2.2; 9.8, as from dry road to ice)."""
 _DRIVEN_BY = {
     **{force: (slip, "normal_load") for force, slip in SLIP_OF_FORCE.items()},
     **{slip: (force, "normal_load") for slip, force in FORCE_OF_SLIP.items()},
@@ -183,7 +188,7 @@ def _ratios(channel: Channel, stated: str | None) -> _JumpRatios:
     own, found = str(stated or channel.unit), dict[float, tuple[str, str]]()
     for other in _JUMP_UNITS.get(channel.dimension, ()):
         of_other = UNITS_BY_NAME[other.lower()].factor
-        if not np.isclose(of_other, unit.factor):
+        if not np.any(np.isclose(unit.factor / of_other, (1.0, *_BY_FRICTION))):
             found[unit.factor / of_other] = (own, other)
             found[of_other / unit.factor] = (other, own)
     return found

@@ -1,5 +1,7 @@
 """Before any explanation: the units and axes that a recording must be in."""
 
+from functools import partial
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -10,6 +12,8 @@ from weighed import all_but, without_visible
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae
+from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
 
@@ -93,6 +97,18 @@ def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit, draws):
         (found,) = prepare(tire, points.assign(fy=points["fy"] / unit)).findings
         assert (found.name, found.channel) == ("unit_error", "fy")
         assert found.parameters["ratio"][0] == pytest.approx(1.0 / unit)
+
+
+@pytest.mark.parametrize(("unit", "said"), [(4.4482216, "lbf"), (9.80665, "kgf")])
+def test_load_and_force_in_one_other_unit_are_asked_about(tire, unit, said, draws):
+    """They were another tire's, or another change of friction with load: forces go nearly with the load."""
+    for seed in draws:
+        points = a_dozen_points(tire, seed, share=0.01)
+        assert not any("were taken for" in q.why for q in prepare(tire, points).questions)
+        scaled = points.assign(fy=points["fy"] / unit, normal_load=points["normal_load"] / unit)
+        (question,) = prepare(tire, scaled).questions
+        assert f"normal_load and fy are in {said}, and were taken for N" in question.why
+        assert "state it" in question.todo
 
 
 @pytest.mark.parametrize("turned", ["slip_angle", "fy"])
@@ -181,6 +197,18 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
     settled = explain_mismatch(tire, read_recording(path, axes="ISO"), without=few)
     assert settled.corrected.question is None
     assert settled.corrected.to_tir(tmp_path / "corrected.tir").exists()
+
+
+@pytest.mark.parametrize("stiffer", [1.0, 1.15, 1.3])
+def test_another_stiffness_does_not_settle_the_axes(tire, stiffer):
+    """A stiffer tire in SAE axes, read as ISO, was an offset of the slip angle, and no axes were open."""
+    file = leaning(tire).replace(PHY1=0.008, PKY1=-20.0, PKY2=2.0)
+    recorded = cambered(tire, 1).iloc[:3000]
+    inputs = {name: recorded[name].to_numpy() for name in ("slip_angle", "camber", "normal_load")}
+    recorded = recorded.assign(fy=file.replace(PKY1=-20.0 * stiffer).forces(**inputs, limits="ignore").fy)
+    for read, excluded in ((misread(recorded, ("slip_angle", "fy"), 1.0), False), (recorded, True)):
+        channels = {name: read[name].to_numpy() for name in read}
+        assert excludes_sae(channels, partial(forces_at, file)) is excluded
 
 
 @pytest.mark.slow

@@ -155,8 +155,8 @@ def open_axes(
 
 
 _READ_AGAIN = (
-    'read the file with axes="SAE" or axes="ISO", whichever holds, or turn the channel at its source, and '
-    "explain again"
+    'read the file with axes="ISO", "SAE" or "adapted SAE", whichever holds, or turn the channel at its '
+    "source, and explain again"
 )
 
 

@@ -27,6 +27,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time, seams
 from tire_pipeline.mismatch.recording.usable import (
+    in_another_unit,
     in_two_units,
     judge,
     leave_out_no_pressure,
@@ -204,7 +205,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     unusable, driven = judge(tire, arrays, time, notes)
-    asked = [in_two_units(recording), unusable]
+    asked = [in_two_units(recording), in_another_unit(tire, arrays) if beside is None else None, unusable]
     if not any(asked) and beside is None:
         against = str(recording.attrs.get("axes_unclear", ""))
         axes = open_axes(tire, arrays, time, findings, against, recording.attrs.get("assumed", ()))

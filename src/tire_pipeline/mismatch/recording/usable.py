@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
-from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
+from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.magic_formula.fitting.report.verdict import MOST_LEFT
+from tire_pipeline.mismatch.effects.sensor.repairs import unexplained
+from tire_pipeline.mismatch.effects.sensor.unit_error import FORCE_FACTORS, inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, DOES_NOTHING, SMALL, largest, moves
-from tire_pipeline.mismatch.model.plain_forces import plain_forces
+from tire_pipeline.mismatch.model.nominal import loads_of_file
+from tire_pipeline.mismatch.model.plain_forces import forces_at, plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.pages.numbers_in_words import how_many, in_digits
 from tire_pipeline.recordings.check import of_both_signs, unit_stated
@@ -25,6 +29,10 @@ LEAST = 0.5
 """Less than half: most of the force comes from something other than the recorded slip. In the real
 recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
 0.94."""
+_FAR_BETTER = 0.1
+"""Squared difference in the right units over that in the wrong ones, at most."""
+_PLANNED = (1.0 / 3.0, 1.7)
+"""Median load of a test plan, over the nominal load of the file that is fitted to it."""
 _STANDS = 0.05
 """Of the largest speed: a wheel that is slower stands. The slowest of the recordings at hand have 0.17."""
 
@@ -204,6 +212,51 @@ def in_two_units(recording: pd.DataFrame) -> Question | None:
     said = "; ".join(f"{jump} (it jumps by {in_digits(jump.ratio)})" for jump in jumps)
     why = f"it seems that {said}, while load and slip are the same"
     return _unusable(why, "bring both parts to one unit, or explain each part by itself")
+
+
+def in_another_unit(tire: Any, arrays: Mapping[str, Array]) -> Question | None:
+    """Return the question whether load and forces are all in one other unit, with which they meet the file.
+
+    Forces are nearly proportional to the load, so that in such a unit another tire seems to roll: a peak
+    friction, a slip stiffness and their changes with load that are off at once.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        Channels, other signs and units repaired.
+    """
+    names = ["normal_load", *(n for n in TANGENTIAL_FORCES if n in arrays)]
+    simulate = partial(forces_at, tire)
+    plain, best = simulate(arrays), (0.0, 1.0, "", "")
+    for base, units in FORCE_FACTORS.items():
+        for factor, (of, taken_for) in ((1.0 / base, units), (base, units[::-1])):
+            if _at_its_loads(tire, arrays["normal_load"] * factor, arrays["normal_load"]):
+                before, after = unexplained(arrays, simulate, dict.fromkeys(names, factor), plain)
+                if before > MOST_LEFT**2 > after and after < min(best[1], _FAR_BETTER * before):
+                    best = (before, after, of, taken_for)
+    before, after, of, taken_for = best
+    if not of:
+        return None
+    as_read, so_read = (in_digits(100.0 * float(np.sqrt(share))) for share in (before, after))
+    listed = f"{', '.join(names[:-1])} and {names[-1]}"
+    return _unusable(
+        f"it seems that {listed} are in {of}, and were taken for {taken_for} (read in {of}, the forces "
+        f"differ from the model by {so_read}% RMS, and by {as_read}% as they are)",
+        f"look up the unit of {listed} in the file's source, and state it (units={{...}}, --unit). If they "
+        f"are in {taken_for}, this is not the file of this tire",
+    )
+
+
+def _at_its_loads(tire: Any, load: Array, instead_of: Array) -> bool:
+    """Whether a load is one for which a file holds, and another one is not: the medians of both, N.
+
+    Where the file states no range, it is that of test plans, around its nominal load.
+    """
+    low, high = loads_of_file(tire)
+    if not np.isfinite(high - low):
+        low, high = (share * float(tire.coefficients.get("FNOMIN", np.nan)) for share in _PLANNED)
+    return bool(low <= np.median(load) <= high and not low <= np.median(instead_of) <= high)
 
 
 def _unusable(why: str, todo: str) -> Question:

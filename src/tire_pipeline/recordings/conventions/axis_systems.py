@@ -1,4 +1,4 @@
-"""TYDEX axis systems H, C and W and the SAE system -> ISO W.
+"""TYDEX axis systems H, C and W, the SAE system and Pacejka's adapted SAE system -> ISO W.
 
 TYDEX (Unrau and Zamow, "TYDEX-Format, Description and Reference Manual", release 1.3): all three
 systems have x ahead in the wheel plane and parallel to the road.
@@ -18,10 +18,16 @@ import pandas as pd
 
 from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.parameters.axes import AXES
 from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _COMPONENT = {"normal_load": "z", "fx": "x", "fy": "y", "mx": "x", "my": "y", "mz": "z"}
+
+_IN_FULL = {"SAE": "SAE J670e", "adapted SAE": "adapted SAE (Pacejka)"}
+
+_OF_SIMULATION = "simulated_"
+"""Begin of the names of simulated forces, which a file has in the axes of its recorded ones."""
 
 NOT_STATED = "ISO W axes, which were not stated"
 """How the axes of a file are told that states none, and whose forces do not tell them."""
@@ -46,7 +52,7 @@ def to_iso_w(
         By column, the name in the file: its last letter (`FYH`, `MZC`) states the system.
     constants : dict
         The file's constants; `LOADRAD`, else half of `OVALLDIA`, for the wheel centre's height.
-    axes : {"ISO", "SAE"}, optional
+    axes : {"ISO", "SAE", "adapted SAE"}, optional
         System of channels whose names do not state one. Left out: ISO is assumed.
 
     Returns
@@ -62,16 +68,14 @@ def to_iso_w(
         `axes` is not one of those.
     """
     told = axes is not None
-    if axes is not None and axes.upper() not in ("ISO", "SAE"):
-        raise RecordingError(f"axes={axes!r}", todo='choose "ISO" or "SAE"')
     by_camber = "" if told else _by_camber(frame, origin)
-    axes = (axes or by_camber or "ISO").upper()
-    if axes == "SAE":
-        # SAE J670e: y to the right and z down. Fz is taken as given and looked at below.
-        for column in ("slip_angle", "fy", "my", "mz"):
-            if column in frame:
-                frame[column] = -frame[column]
-        conversions.append("SAE J670e to ISO: slip_angle, fy, my, mz mirrored")
+    axes = _known(axes) if axes is not None else by_camber or "ISO"
+    turned = {n for n, sign in AXES[axes]._asdict().items() if sign < 0.0}  # Fz is looked at below
+    there = [column for column in frame if str(column).removeprefix(_OF_SIMULATION) in turned]
+    for column in there:
+        frame[column] = -frame[column]
+    if axes != "ISO":
+        conversions.append(f"{_IN_FULL[axes]} to ISO: {', '.join(there) or 'nothing'} mirrored")
     systems = {c: _system(origin[c]) for c in _COMPONENT if c in frame}
     if "C" in systems.values():
         _c_to_h(frame, systems, notes, conversions)
@@ -92,6 +96,15 @@ def to_iso_w(
         return "axes by the names of the channels (TYDEX)", ""
     against = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
     return NOT_STATED + (f" ({against}; only Fz was mirrored)" if against else ""), against
+
+
+def _known(axes: str) -> str:
+    """Return an axis system by its name, in any case and with blanks, ``_`` or ``-``."""
+    spelt = {name.replace(" ", "").upper(): name for name in AXES}
+    name = spelt.get(axes.upper().translate(str.maketrans("", "", " _-")))
+    if name is None:
+        raise RecordingError(f"axes={axes!r}", todo=f"choose {', '.join(map(repr, AXES))}")
+    return name
 
 
 def _by_camber(frame: pd.DataFrame, origin: dict[str, str]) -> str:

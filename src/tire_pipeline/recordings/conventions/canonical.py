@@ -65,7 +65,7 @@ def canonical_frame(
     raw : RawRecording
     source : str
         The file, for messages and `attrs`.
-    axes : {"ISO", "SAE"}, optional
+    axes : {"ISO", "SAE", "adapted SAE"}, optional
         The axes the file is in where its names do not say. Left out: ISO W is assumed, and that is said.
     units, names : mapping, optional
         By the file's channel name: the unit that holds, the column that it is. By the column: a number that

@@ -13,16 +13,17 @@ from tire_pipeline.mismatch.effects.sensor.repairs import AS_WELL, best_repair, 
 from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE_VALUES, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
-_FORCE_FACTORS = {1.0 / POUND_FORCE: ("lbf", "N"), 1e-3: ("kN", "N"), 1.0 / GRAVITY: ("kgf", "N")}
+FORCE_FACTORS = {1.0 / POUND_FORCE: ("lbf", "N"), 1e-3: ("kN", "N"), 1.0 / GRAVITY: ("kgf", "N")}
+"""Recorded over true -> the unit of the values, and the one that they were taken for."""
 _FACTORS_BY_CHANNEL: dict[str, dict[float, tuple[str, str]]] = {
     "slip_angle": {1.0 / DEGREE: ("degrees", "radians")},
     "camber": {1.0 / DEGREE: ("degrees", "radians")},
     "slip_ratio": {100.0: ("percent", "a ratio")},
-    "normal_load": _FORCE_FACTORS,
-    "fx": _FORCE_FACTORS,
-    "fy": _FORCE_FACTORS,
+    "normal_load": FORCE_FACTORS,
+    "fx": FORCE_FACTORS,
+    "fy": FORCE_FACTORS,
 }
-_GAINS_OF_SLIP = np.geomspace(min(_FORCE_FACTORS), 1.0 / min(_FORCE_FACTORS), 61)
+_GAINS_OF_SLIP = np.geomspace(min(FORCE_FACTORS), 1.0 / min(FORCE_FACTORS), 61)
 """Gains of a slip that are tried, as far from one as the units of a force."""
 _PRESSURE_FACTORS = {
     1e3 / PSI: ("psi", "kPa"),
@@ -42,7 +43,8 @@ class UnitError(Effect):
     """A channel is wrong by exactly 57.3, 4.448, 6.895, 9.81, 3.6, 100 or 1000.
 
     Covers one such factor for angles, slip, load, forces and pressure. A force in another unit is no finding
-    where a gain of its slip explains far more. Not covered: time, speed and
+    where a gain of its slip explains far more. Load and forces that are all in one other unit are asked
+    about, not repaired: so may be another tire. Not covered: time, speed and
     temperature, of which the forces say too little, and units with an offset.
     """
 
@@ -78,7 +80,7 @@ class UnitError(Effect):
             simulate,
             [
                 ({"fx": 1.0 / f**k, "fy": 1.0 / f**k}, ("fx, fy", f**k, _taken(*units[::k])))
-                for f, units in _FORCE_FACTORS.items()
+                for f, units in FORCE_FACTORS.items()
                 for k in (1, -1)
                 if "fx" in channels and "fy" in channels
             ],
