@@ -55,7 +55,7 @@ def one_line(error: BaseException) -> str | None:
             break
         if isinstance(each, MissingConfigException):
             todo = "run it in the project's folder, whose path must not hold *, ? or ["
-            text = f"{each} -> {todo}; correct --env or --conf-source if you gave one"
+            text = f"{each} -> {todo}; correct --conf-source if you gave one"
             break
         if isinstance(each, YAMLError | OmegaConfBaseException):
             text = f"{each} -> correct it in conf or --params"
