@@ -11,7 +11,8 @@ import pytest
 from tire_pipeline.datasets import ReportPartsDataset, TextFolderDataset
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files import rows_on_disk
-from tire_pipeline.files.packed import pack
+from tire_pipeline.files.packed import pack, seal_of
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.reporting.mismatch import mismatch_overview
 from tire_pipeline.reporting.mismatch.explain_task import corrected_files
 from tire_pipeline.reporting.mismatch.explained_recordings import (
@@ -177,3 +178,24 @@ def test_where_none_could_be_explained_each_problem_is_told_up_to_three():
     for names, told in ((["a", "b"], "a: a has no load; b: b has no load"), (list("abcde"), "; and 2 more")):
         with pytest.raises(RecordingError, match=told):
             collect_explained({name: task(name) for name in names})
+
+
+def test_a_damaged_note_of_an_earlier_run_costs_its_line_only():
+    """Half of a note ended the run in a traceback of the JSON reader."""
+    now = found("two.csv", "agrees", "Same.")
+    for note in (b'{"recording": "a/one', b"\x00\xff", b"[1]"):
+        page, _ = draw_overview(now, ["a/one.html", "two.html"], {**noted(now), "a/one.json": note})
+        assert 'href="mismatch/a/one.html"' in page
+        assert "Open it to see what was found." in page
+
+
+def test_learnt_sizes_that_are_not_what_was_written_are_refused(tmp_path):
+    path = tmp_path / "mismatch_sizes.json"
+    path.write_text(json.dumps({"sizes": learnt().to_dict()}))
+    path.with_name("mismatch_sizes.json.sha256").write_bytes(seal_of(path.read_bytes()))
+    assert explain_each({}, ExplainParameters(learnt=str(path))) == {}
+    path.write_text(path.read_text().replace("1", "2", 1))
+    with pytest.raises(RecordingError, match=r"mismatch_sizes\.json: these learnt sizes are damaged -> run"):
+        explain_each({}, ExplainParameters(learnt=str(path)))
+    path.with_name("mismatch_sizes.json.sha256").unlink()
+    assert explain_each({}, ExplainParameters(learnt=str(path))) == {}

@@ -1,8 +1,9 @@
-"""Several files as the bytes of one ZIP; the same files give the same bytes."""
+"""Several files as the bytes of one ZIP, the same for the same files; and the hash of a file beside it."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 import lzma
 import struct
@@ -29,6 +30,26 @@ _OF_A_DAMAGED_ZIP = (
     OSError,
 )
 """What :mod:`zipfile` raises if some bytes are not what they were."""
+
+
+SEAL = ".sha256"
+"""What the name of a file with another one's hash ends in."""
+
+
+def seal_of(content: bytes) -> bytes:
+    """The hash of a file, for another file beside it.
+
+    Examples
+    --------
+    >>> is_as_sealed(b"a,b", seal_of(b"a,b")), is_as_sealed(b"a,c", seal_of(b"a,b"))
+    (True, False)
+    """
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+def is_as_sealed(content: bytes, seal: bytes) -> bool:
+    """Whether a file has the hash that lies beside it."""
+    return seal_of(content) == seal.strip()
 
 
 class Passing(bytes):

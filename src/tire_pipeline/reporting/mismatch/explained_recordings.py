@@ -7,18 +7,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from functools import partial
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any, Literal
 
 from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError, did_you_mean
-from tire_pipeline.files.packed import member, unpack
+from tire_pipeline.files.packed import SEAL, is_as_sealed, member, unpack
 from tire_pipeline.files.read_later import Read
 from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
@@ -136,13 +136,25 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
     code = code_hash("mismatch", "magic_formula", "tir", "recordings", "reporting")
-    sizes, tasks = learnt(parameters.learnt), {}
+    sizes, tasks = _learnt_as_sealed(parameters.learnt), {}
     for name, members in groups.items():
         loads = {each: recordings[each] for each in members}
         how = {each: parameters.how(each) for each in members}
         task = ExplainTask(name, loads, how, held_out.get(name), sizes, parameters.left_out(members))
         tasks[f"{code}/{task.key}.zip"] = task
     return tasks
+
+
+def _learnt_as_sealed(path: str) -> LearntSizes:
+    """Sizes of a file; if its hash lies beside it, as ``calibrate_mismatch`` writes both, it must be that."""
+    seal = Path(path + SEAL)
+    if path and seal.is_file() and not is_as_sealed(Path(path).read_bytes(), seal.read_bytes()):
+        raise RecordingError(
+            "these learnt sizes are damaged",
+            where=path,
+            todo=f"run calibrate_mismatch again, or remove {seal.name} if you changed them yourself",
+        )
+    return learnt(path)
 
 
 def collect_explained(

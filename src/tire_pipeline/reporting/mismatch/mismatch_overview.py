@@ -176,10 +176,19 @@ def _earlier(last: RowsOnDisk, pages: Iterable[str], rows: Mapping[str, bytes | 
             continue
         unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
         kept = rows.get(f"{page.removesuffix('.html')}.json")
-        row = unknown if kept is None else json.loads(kept)
+        row = unknown if kept is None else _noted(kept) or unknown
         row = {**dict.fromkeys(_HEADS, ""), **row, "page": page}
         found.add([(page, _date(row), json.dumps(row))])
     return _ListedReports(found, "date desc, page")
+
+
+def _noted(text: bytes | str) -> dict[str, str]:
+    """What an earlier run noted; nothing if the note is damaged."""
+    try:
+        row = json.loads(text)
+    except ValueError:
+        return {}
+    return {str(name): str(value) for name, value in row.items()} if isinstance(row, dict) else {}
 
 
 def _link(row: Mapping[str, str]) -> tuple[str, str, str]:
