@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
 from pathlib import Path
@@ -50,6 +51,19 @@ class FrontPageHooks:
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:
         """Link what is there now, and say where."""
+        self._make()
+
+    @hook_impl(tryfirst=True)
+    def on_pipeline_error(self) -> None:
+        """A run may have drawn a page before it failed: what is quoted of that page is to be what it says.
+
+        It comes before the run's ticket is returned: a run that has lost it writes nothing more.
+        """
+        if isinstance(self._folder, Path) and self._folder.is_dir():
+            with contextlib.suppress(Exception):  # what the run failed of is told
+                self._make()
+
+    def _make(self) -> None:
         from tire_pipeline.reporting.front import FRONT, front_page  # slow to import
 
         if isinstance(self._folder, Objects):

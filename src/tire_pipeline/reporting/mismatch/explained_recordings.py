@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import Any, Literal
 
+import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
@@ -180,11 +181,6 @@ def collect_explained(
         In the same way, ``.tir`` files with the missing physics added, and sidecars for what the format
         cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
         a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
-
-    Raises
-    ------
-    RecordingError
-        If not one recording could be explained.
     """
     reports, rows = ReportsByName(), RowsOnDisk(COLUMNS)
     pages, corrected = dict[str, Read](), dict[str, Read | None]()
@@ -199,7 +195,6 @@ def collect_explained(
         pages[result_place(row["recording"], ".html")] = partial(_member, read, PAGE)
         corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
-    _check_any(reports, rows)
     overview = FramesOfRows(rows, "select * from rows order by rowid", dict.fromkeys(COLUMNS, "str"))
     return reports, overview, pages, corrected
 
@@ -228,16 +223,33 @@ class ReportsByName(Mapping[str, Any]):
         return len(self.read)
 
 
-def _check_any(reports: Mapping[str, Any], rows: RowsOnDisk) -> None:
-    if not reports:
-        (count,) = rows.do("select count(*) from rows").fetchone()
-        first = rows.do(f"select recording, problem from rows order by rowid limit {_MOST_TOLD}")
-        told = [f"{recording}: {problem}" for recording, problem in first]
-        more = [f"and {count - len(told)} more"] if count > len(told) else []
-        raise RecordingError(
-            f"none of {count} recordings could be explained; {'; '.join(told + more)}",
-            todo="correct that, then run again",
-        )
+def refuse_none_explained(overview: Iterable[pd.DataFrame], outcome: list[str]) -> None:
+    """End the run with an error if not one recording could be explained; its page is drawn by then.
+
+    Parameters
+    ----------
+    overview : iterable of DataFrame
+        Of :func:`collect_explained`.
+    outcome : list of str
+        What the page says, so that it is drawn first: that of an earlier run would be taken for this one's.
+
+    Raises
+    ------
+    RecordingError
+        With the first problems.
+    """
+    count, told = 0, list[str]()
+    for frame in overview:
+        if frame["verdict"].fillna("").astype(bool).any():
+            return
+        count += len(frame)
+        first = frame[["recording", "problem"]].head(_MOST_TOLD - len(told))
+        told += [f"{recording}: {problem}" for recording, problem in first.itertuples(index=False)]
+    more = [f"and {count - len(told)} more"] if count > len(told) else []
+    raise RecordingError(
+        f"none of {count} recordings could be explained; {'; '.join(told + more)}",
+        todo="correct that, then run again",
+    )
 
 
 def _member(read: Read, name: str) -> bytes:
