@@ -39,6 +39,7 @@ from tire_pipeline.recordings.whole_rows import (
     LONGEST_HOLE,
     USED,
     few_whole_rows,
+    unread_cells,
 )
 from tire_pipeline.small_loads import in_another_unit_as
 
@@ -86,6 +87,7 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
     if repeated:
         return [Issue("repeated_channel", "error", ", ".join(repeated), "keep one of each")]
     issues = _columns(recording) + _time(recording) + _values(recording)
+    issues += unread_cells(recording.attrs.get("notes", ()), recording.attrs.get("channels", {}).values())
     return sorted(issues, key=lambda issue: issue.severity != "error")
 
 
