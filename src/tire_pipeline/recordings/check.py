@@ -23,6 +23,7 @@ from tire_pipeline.recordings.conventions.plausible import (
 )
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.physical_signs import (
+    grip_of_no_tire,
     moment_beyond_reach,
     moment_of_other_sign,
     side_force_away_from_the_lean,
@@ -228,6 +229,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
         issues += _unit(frame, str(column), np.where(bad, np.nan, values))
     issues += _slip_not_measured(frame) + _unit_changes(frame) + _force_and_load(frame)
     issues += slip_ratio_defined_otherwise(frame) + slip_too_small(frame) + moment_beyond_reach(frame)
+    issues += grip_of_no_tire(frame)
     return issues + moment_of_other_sign(frame) + side_force_away_from_the_lean(frame)
 
 
