@@ -42,7 +42,7 @@ def create_pipeline(**_: object) -> Pipeline:
                 refuse_none_explained,
                 inputs=["mismatch_overview", "mismatch_outcome"],
                 outputs=None,
-                name="refuse_none_explained",
+                name="check_any_explained",
             ),
         ]
     )
