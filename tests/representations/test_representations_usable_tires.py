@@ -47,6 +47,15 @@ def test_few_files_are_counted_in_the_message():
     assert "lower dedupe_filter.minimum_per_category" in str(found.value)
 
 
+def test_files_that_lie_in_no_folder_have_a_name_in_the_message(monkeypatch):
+    """They were "too small:  (2 usable, 20 needed)"."""
+    monkeypatch.setitem(COUNTS, "", 2)
+    with pytest.raises(DomainError) as found:
+        _keep(20)
+    assert "too small: files in no folder (2 usable" in str(found.value)
+    assert "-> put the files that lie in no folder into one for each organisation; " in str(found.value)
+
+
 def test_a_target_that_is_too_small_is_not_answered_by_another_target():
     with pytest.raises(DomainError) as found:
         _keep(3, target="c_lab")

@@ -82,6 +82,8 @@ def _check_categories(kept: pd.DataFrame, report: Iterable[pd.DataFrame], target
         remains += f"; too small: {_listed(small)}"
     remains += _not_used(report)
     more = "add files to these, or lower dedupe_filter.minimum_per_category"
+    if "" in small or "" in have:
+        more = f"put the files that lie in no folder into one for each organisation; {more}"
     if len(have) < 2:
         raise DomainError(
             f"two categories are needed to tell organisations apart; {remains}",
@@ -119,4 +121,4 @@ def _not_used(report: Iterable[pd.DataFrame]) -> str:
 
 
 def _listed(found: dict[str, object]) -> str:
-    return ", ".join(f"{name} ({what})" for name, what in found.items()) or "none"
+    return ", ".join(f"{name or 'files in no folder'} ({what})" for name, what in found.items()) or "none"

@@ -60,13 +60,26 @@ class TirFolderDataset(PartitionedDataset):
         """Partition name (``category/file.tir``) to a function that reads it."""
         partitions = self._local() if self._protocol == "file" else self._remote()
         if not partitions and not self._may_be_absent:
+            what, first = self._why_empty()
             raise DomainError(
-                "there are no .tir files below this folder",
+                what,
                 where=self._path,
-                todo="put files into <folder>/<category>/*.tir, set tir_folder, or make a "
+                todo=f"{first}put files into <folder>/<category>/*.tir, set tir_folder, or make a "
                 "demonstration fleet with `kedro run --pipeline make_fleet`",
             )
         return partitions
+
+    def _why_empty(self) -> tuple[str, str]:
+        """What is there in place of .tir files, and what to do about that."""
+        if self._protocol != "file" or os.path.isdir(self._path):
+            archives = [] if self._protocol != "file" else list(walk(self._path, _is_archive).files)
+            unpack = (
+                f"unpack {', '.join(archives[:3])}{', ...' if archives[3:] else ''}; or " if archives else ""
+            )
+            return "there are no .tir files below this folder", unpack
+        if os.path.lexists(self._path):
+            return "there are no .tir files: this is no folder", "name the folder that holds your files; or "
+        return "there are no .tir files: there is no such folder", ""
 
     def _local(self) -> dict[str, Callable[[], Any]]:
         if not os.path.isdir(self._path):
@@ -111,6 +124,10 @@ class TirFolderDataset(PartitionedDataset):
 
 def _is_tir(name: str) -> bool:
     return name.lower().endswith(".tir")
+
+
+def _is_archive(name: str) -> bool:
+    return name.lower().endswith((".zip", ".7z", ".rar", ".gz", ".tgz", ".tar", ".bz2", ".xz"))
 
 
 @dataclass(frozen=True, slots=True)
