@@ -7,7 +7,12 @@ import sys
 import pytest
 from kedro.io import DatasetError
 
-from tire_pipeline.datasets import HtmlPageDataset, TextFolderDataset, TirFolderDataset
+from tire_pipeline.datasets import (
+    HtmlPageDataset,
+    RecordingFolderDataset,
+    TextFolderDataset,
+    TirFolderDataset,
+)
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.folder_walk import walk
@@ -206,6 +211,8 @@ def test_what_is_there_in_place_of_files_is_said(tmp_path):
         TirFolderDataset(path=str(tmp_path / "fleet.zip")).load()
     with pytest.raises(DatasetError, match=r"below this folder -> unpack fleet\.zip; or put files"):
         TirFolderDataset(path=str(tmp_path)).load()
+    with pytest.raises(DatasetError, match=r"no recordings below this folder -> unpack fleet\.zip; or put"):
+        RecordingFolderDataset(path=str(tmp_path)).load()
     with pytest.raises(DomainError, match="this is no folder -> name the folder"):
         walk(tmp_path / "fleet.zip", lambda name: True)
 

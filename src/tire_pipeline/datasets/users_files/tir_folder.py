@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
 
+from tire_pipeline.datasets.users_files.archives import to_unpack
 from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
@@ -72,11 +73,7 @@ class TirFolderDataset(PartitionedDataset):
     def _why_empty(self) -> tuple[str, str]:
         """What is there in place of .tir files, and what to do about that."""
         if self._protocol != "file" or os.path.isdir(self._path):
-            archives = [] if self._protocol != "file" else list(walk(self._path, _is_archive).files)
-            unpack = (
-                f"unpack {', '.join(archives[:3])}{', ...' if archives[3:] else ''}; or " if archives else ""
-            )
-            return "there are no .tir files below this folder", unpack
+            return "there are no .tir files below this folder", to_unpack(self._path)
         if os.path.lexists(self._path):
             return "there are no .tir files: this is no folder", "name the folder that holds your files; or "
         return "there are no .tir files: there is no such folder", ""
@@ -124,10 +121,6 @@ class TirFolderDataset(PartitionedDataset):
 
 def _is_tir(name: str) -> bool:
     return name.lower().endswith(".tir")
-
-
-def _is_archive(name: str) -> bool:
-    return name.lower().endswith((".zip", ".7z", ".rar", ".gz", ".tgz", ".tar", ".bz2", ".xz"))
 
 
 @dataclass(frozen=True, slots=True)
