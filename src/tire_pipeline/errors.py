@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterable
 from typing import Any
 
@@ -20,6 +21,28 @@ def did_you_mean(name: str, known: Iterable[str], otherwise: str, cutoff: float 
 
     near = get_close_matches(name, list(known), n=1, cutoff=cutoff)
     return f"did you mean {near[0]!r}?" if near else otherwise
+
+
+_ADVICE_ON_SYSTEM = {
+    errno.ENOSPC: "the disk is full: make room, then run again",
+    errno.EDQUOT: "the disk quota is used up: make room, then run again",
+    errno.EACCES: "no permission: allow reading and writing there, then run again",
+    errno.EPERM: "no permission: allow reading and writing there, then run again",
+    errno.EROFS: "the folder is read-only: choose another, or mount it writable",
+    errno.EISDIR: "this is a folder: choose another name",
+}
+
+
+def system_advice(error: OSError) -> str:
+    """Return what the system refused and what to do, the file first; empty if nothing general can be said.
+
+    Examples
+    --------
+    >>> system_advice(OSError(errno.ENOSPC, "No space left on device", "a.html"))
+    'a.html: the disk is full: make room, then run again'
+    """
+    advice = _ADVICE_ON_SYSTEM.get(error.errno or 0)
+    return f"{error.filename}: {advice}" if advice and error.filename else advice or ""
 
 
 class TirePipelineError(Exception):

@@ -7,7 +7,12 @@ import sys
 import pytest
 from kedro.io import DatasetError
 
-from tire_pipeline.datasets import HtmlPageDataset, TextFolderDataset, TirFolderDataset
+from tire_pipeline.datasets import (
+    HtmlPageDataset,
+    RecordingFolderDataset,
+    TextFolderDataset,
+    TirFolderDataset,
+)
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.folder_walk import walk
@@ -193,6 +198,23 @@ def test_an_empty_folder_says_what_to_do(tmp_path):
     with pytest.raises(DatasetError, match="make_fleet"):
         TirFolderDataset(path=str(tmp_path)).load()
     assert TirFolderDataset(path=str(tmp_path / "none"), may_be_absent=True).load() == {}
+
+
+def test_what_is_there_in_place_of_files_is_said(tmp_path):
+    """A folder that is not there, a file and a folder of archives had no .tir files "below this folder"."""
+    with pytest.raises(
+        DatasetError, match=r"/none: there are no \.tir files: there is no such folder -> put"
+    ):
+        TirFolderDataset(path=str(tmp_path / "none")).load()
+    (tmp_path / "fleet.zip").write_bytes(b"PK")
+    with pytest.raises(DatasetError, match=r"this is no folder -> name the folder that holds your files; or"):
+        TirFolderDataset(path=str(tmp_path / "fleet.zip")).load()
+    with pytest.raises(DatasetError, match=r"below this folder -> unpack fleet\.zip; or put files"):
+        TirFolderDataset(path=str(tmp_path)).load()
+    with pytest.raises(DatasetError, match=r"no recordings below this folder -> unpack fleet\.zip; or put"):
+        RecordingFolderDataset(path=str(tmp_path)).load()
+    with pytest.raises(DomainError, match="this is no folder -> name the folder"):
+        walk(tmp_path / "fleet.zip", lambda name: True)
 
 
 def test_a_folder_that_is_not_there_is_not_called_closed(tmp_path):

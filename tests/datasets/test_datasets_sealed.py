@@ -11,10 +11,18 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 from kedro.io import DatasetError
+from kedro.io.core import Version
 
-from tire_pipeline.datasets import FramePartsDataset, IngestStoreDataset, ParquetTableDataset
+from tire_pipeline.datasets import (
+    CsvTableDataset,
+    FramePartsDataset,
+    IngestStoreDataset,
+    JsonFileDataset,
+    ParquetTableDataset,
+)
 from tire_pipeline.datasets.storage.sealed import json_as_sealed, sealed_json, sealed_parquet
 from tire_pipeline.errors import DomainError
+from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.retraining import Manifest, Store
 from tire_pipeline.retraining.scan.manifest import ManifestEntry
 from tire_pipeline.retraining.stored_table.partition import Partition
@@ -136,3 +144,59 @@ def test_a_text_with_its_hash_is_json_and_gives_the_text_again():
     assert json_as_sealed(text, "here", "again") == text, "written without"
     with pytest.raises(DomainError, match="here: this file is damaged -> again"):
         json_as_sealed(stored.replace(b"parts", b"qarts"), "here", "again")
+
+
+SPLITS = pd.DataFrame({"file": ["A/1.tir", "B/2.tir"], "part": ["test", "training"]})
+BESIDE = {
+    "splits.csv": (CsvTableDataset, SPLITS),
+    "best.json": (JsonFileDataset, {"name": "mixed_model", "errors": {"mixed_model": 0.052}}),
+    "sources.json": (JsonFileDataset, ["A/1.tir", "B/2.tir"]),
+}
+
+
+def _beside(folder, name, *, sealed=True):
+    kind, data = BESIDE[name]
+    dataset = kind(filepath=str(folder / name), version=Version(None, "2026-11-30T00.00.00.000Z"))
+    dataset.save(data)
+    (path,) = (folder / name).glob(f"*/{name}")
+    seal = path.with_name(f"{name}.sha256")
+    assert seal.exists()
+    if not sealed:
+        seal.unlink()
+    return dataset, path, data
+
+
+@pytest.mark.parametrize("name", BESIDE)
+@pytest.mark.parametrize("sealed", [True, False])
+def test_a_table_or_json_comes_back_also_of_before_there_were_hashes(tmp_path, name, sealed):
+    dataset, _, data = _beside(tmp_path, name, sealed=sealed)
+    back = dataset.load()
+    assert back.equals(data) if isinstance(data, pd.DataFrame) else back == data
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_no_flip_and_no_half_of_a_table_or_json_is_trusted(tmp_path, name):
+    dataset, path, _ = _beside(tmp_path, name)
+    content = path.read_bytes()
+    flipped = [_flipped(content, at, bit) for at in range(len(content)) for bit in (0, 5)]
+    for other in [*flipped, content[: len(content) // 2], b""]:
+        path.write_bytes(other)
+        with pytest.raises(DatasetError) as raised:
+            dataset.load()
+        said = one_line(raised.value)
+        assert f"{path}: this stored file is damaged -> it is not used: run the pipeline that makes" in said
+
+
+def test_a_hash_without_its_file_is_no_version(tmp_path):
+    _, path, _ = _beside(tmp_path, "best.json")
+    path.unlink()
+    newest = JsonFileDataset(filepath=str(tmp_path / "best.json"), version=Version(None, None))
+    assert not newest.exists()
+
+
+def test_a_file_without_versions_may_be_changed_by_hand(tmp_path):
+    dataset = CsvTableDataset(filepath=str(tmp_path / "mine.csv"))
+    dataset.save(SPLITS)
+    (tmp_path / "mine.csv").write_text("file,part\nC/3.tir,test\n")
+    assert dataset.load()["file"].tolist() == ["C/3.tir"]
+    assert [each.name for each in tmp_path.iterdir()] == ["mine.csv"]

@@ -125,8 +125,24 @@ def test_a_configuration_that_cannot_be_read_is_told(tmp_path, line, said):
 
 def test_a_misspelt_environment_is_named(tmp_path):
     line = _one_line(kedro_here(tmp_path, "--env", "smal"))
-    assert "conf/smal" in line
-    assert "correct --env" in line
+    assert (
+        "--env: there is no environment 'smal' -> did you mean 'small'? there are base, cluster, small"
+        in line
+    )
+
+
+@pytest.mark.parametrize("written", [[], ["README.md", "paramters.yml"]])
+def test_an_environment_of_which_nothing_is_read_is_told(tmp_path, written):
+    """The run took the base environment, without a word."""
+    mine = small_conf(tmp_path) / "mine"
+    mine.mkdir()
+    for name in written:
+        (mine / name).write_text("seed: 2\n")
+    line = _one_line(kedro_here(tmp_path, "--env", "mine"))
+    assert "conf/mine: the environment 'mine' is empty: no file in it is read" in line
+    assert "there are base, cluster, small" in line
+    (mine / "parameters.yml").write_text("seedd: 2\n")
+    assert "did you mean 'seed'?" in _one_line(kedro_here(tmp_path, "--env", "mine"))
 
 
 @pytest.mark.parametrize(

@@ -15,14 +15,18 @@ from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.reporting.mismatch.explain_task import COLUMNS
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
     collect_explained,
     explain_each,
+    refuse_none_explained,
 )
+from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview
 
 pytestmark = pytest.mark.slow
 EXAMPLES = ROOT / "examples"
+EARLIER = {"recording": "old.csv", "verdict": "explained", "summary": "Camber is missing."}
 
 
 def _write_run(path: Path, step: int = 2) -> None:
@@ -71,7 +75,29 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
 
 
 def _explain(loaders, parameters):
-    return collect_explained(explain_each(loaders, parameters))
+    reports, overview, *others = collect_explained(explain_each(loaders, parameters))
+    refuse_none_explained(overview, [])
+    return reports, overview, *others
+
+
+def test_a_run_that_could_use_no_recording_says_so_on_its_page(tmp_path):
+    """The page of an earlier run stayed, with its recordings as those of the last run."""
+    bad, reports = tmp_path / "data" / "01_raw" / "recordings" / "bad", tmp_path / "data" / "08_reporting"
+    bad.mkdir(parents=True)
+    shutil.copy(EXAMPLES / "tire.tir", bad)
+    (bad / "recording.csv").write_text("time,slip_angle\n0,0.01\n")
+    reports.mkdir()
+    shown, _ = draw_overview([pd.DataFrame([{**dict.fromkeys(COLUMNS, ""), **EARLIER}])], ["old.html"], {})
+    (reports / "mismatch.html").write_text(shown)
+    (reports / "mismatch").mkdir()
+    done = kedro_here(tmp_path, "--pipeline", "explain_mismatch")
+    assert done.returncode == 1
+    assert "none of 1 recordings could be explained; bad/recording.csv: " in done.stderr
+    page, front = ((reports / name).read_text() for name in ("mismatch.html", "index.html"))
+    assert "1 recording: 1 could not be used." in page
+    assert "bad/recording.csv" in page
+    assert "old.csv" not in page
+    assert "1 recording: 1 could not be used." in front
 
 
 @pytest.fixture

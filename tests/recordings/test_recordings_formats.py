@@ -11,7 +11,7 @@ import scipy.io
 from asammdf import MDF, Signal
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings import read_recording
+from tire_pipeline.recordings import check_recording, read_recording
 from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 
 DEG = np.pi / 180
@@ -96,7 +96,7 @@ def test_csv_comments_blanks_and_text(tmp_path):
     assert np.isnan(recording["fy"][7])
     assert recording["fy"].isna().sum() == 1
     notes = " ".join(recording.attrs["notes"])
-    assert "FY: 1 cells are no numbers" in notes
+    assert "FY: 1 cell is no number" in notes
     assert "note: text, left out" in notes
     assert recording.attrs["comments"] == ["# made by hand"]
 
@@ -335,11 +335,55 @@ def test_csv_says_which_cell_is_no_number_and_which_row_is_ragged(tmp_path):
     rows[41] = "0.4,0.01,4000,overload"
     file.write_text("\n".join(rows))
     notes = read_recording(file).attrs["notes"]
-    assert "fy: 1 cells are no numbers and became NaN, the first in data row 41: 'overload'" in notes
+    said = "fy: 1 cell is no number, and counted as missing; the first in data row 41: 'overload'"
+    assert said in notes
     rows[51] += ",7"
     file.write_text("\n".join(rows))
     with pytest.raises(RecordingError, match=r"\(Expected 4 fields in line 52, saw 5\) -> every row"):
         read_recording(file)
+
+
+@pytest.mark.parametrize(
+    ("cell", "todo"),
+    [
+        ("(191.0)", "a minus sign in front of it"),
+        ("191.0-", "a minus sign in front of it"),
+        ("<0.1", "write the limit as a plain number"),
+        ("#DIV/0!", "correct the formula"),
+        ("12.3 N", "units in the head of the column only"),
+        ("5%", "units in the head of the column only"),
+        ("1 234,5", "the same decimal sign"),
+        ("1.2.3", "the same decimal sign"),
+        ("TRUE", "if it is a value, write it as a plain number"),
+        ("---", "if it is a value, write it as a plain number"),
+    ],
+)
+def test_a_cell_that_is_no_number_is_a_warning_that_says_what_to_do(tmp_path, cell, todo):
+    """Accountants write (191.0) for -191.0: it was missing, and the check found no fault."""
+    file = tmp_path / "a.csv"
+    rows = ["time,slip_angle,normal_load,fy", *(f"{k / 100},0.01,4000,{k % 7}.5" for k in range(60))]
+    rows[41] = f'0.4,0.01,4000,"{cell}"'
+    file.write_text("\n".join(rows))
+    recording = read_recording(file)
+    (issue,) = (each for each in check_recording(recording) if each.name == "cells_not_read")
+    assert issue.severity == "warning"
+    assert issue.where.startswith(
+        "fy: 1 cell is no number, and counted as missing; the first in data row 41: "
+    )
+    assert repr(cell) in issue.where
+    assert todo in issue.advice
+    assert recording["fy"].isna().sum() == 1
+
+
+@pytest.mark.parametrize("cell", ["inf", "-inf", "1e400"])
+def test_an_infinite_number_is_missing_and_said(tmp_path, cell):
+    file = tmp_path / "a.csv"
+    rows = ["time,slip_angle,normal_load,fy", *(f"{k / 100},0.01,4000,{k % 7}.5" for k in range(60))]
+    rows[41] = f"0.4,0.01,4000,{cell}"
+    file.write_text("\n".join(rows))
+    recording = read_recording(file)
+    assert "fy: 1 values are beyond any measurement and became NaN" in recording.attrs["notes"]
+    assert recording["fy"].isna().sum() == 1
 
 
 def test_a_folder_is_no_recording(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from types import SimpleNamespace
 
 import pandas as pd
@@ -11,13 +12,15 @@ import pytest
 from tire_pipeline.datasets import ReportPartsDataset, TextFolderDataset
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files import rows_on_disk
-from tire_pipeline.files.packed import pack
+from tire_pipeline.files.packed import pack, seal_of
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.reporting.mismatch import mismatch_overview
 from tire_pipeline.reporting.mismatch.explain_task import corrected_files
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
     collect_explained,
     explain_each,
+    refuse_none_explained,
 )
 from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, rows_to_keep
 from tire_pipeline.reporting.mismatch.result_names import result_place
@@ -175,5 +178,40 @@ def test_where_none_could_be_explained_each_problem_is_told_up_to_three():
         return lambda: pack({"row.json": json.dumps(row).encode(), "report.json": b"null"})
 
     for names, told in ((["a", "b"], "a: a has no load; b: b has no load"), (list("abcde"), "; and 2 more")):
+        _, overview, pages, _ = collect_explained({name: task(name) for name in names})
+        page, outcome = draw_overview(
+            overview, ["a.html"], noted(found("a", "explained", "Camber is missing."))
+        )
+        assert not pages
+        assert outcome[0] == f"{len(names)} recordings: {len(names)} could not be used."
+        assert all(f"{name} has no load" in page for name in names)
+        assert page.index("a has no load") < page.index("<h2>Reports of") < page.index("Camber is")
+        assert "mismatch_overview.csv" not in page
         with pytest.raises(RecordingError, match=told):
-            collect_explained({name: task(name) for name in names})
+            refuse_none_explained(overview, outcome)
+
+
+def test_the_page_says_when_the_last_run_was():
+    page, _ = draw_overview(found("two.csv", "agrees", "Same."), ["two.html"], {})
+    assert re.search(r"The last run was on \d{4}-\d\d-\d\d \d\d:\d\d\.", page)
+
+
+def test_a_damaged_note_of_an_earlier_run_costs_its_line_only():
+    """Half of a note ended the run in a traceback of the JSON reader."""
+    now = found("two.csv", "agrees", "Same.")
+    for note in (b'{"recording": "a/one', b"\x00\xff", b"[1]"):
+        page, _ = draw_overview(now, ["a/one.html", "two.html"], {**noted(now), "a/one.json": note})
+        assert 'href="mismatch/a/one.html"' in page
+        assert "Open it to see what was found." in page
+
+
+def test_learnt_sizes_that_are_not_what_was_written_are_refused(tmp_path):
+    path = tmp_path / "mismatch_sizes.json"
+    path.write_text(json.dumps({"sizes": learnt().to_dict()}))
+    path.with_name("mismatch_sizes.json.sha256").write_bytes(seal_of(path.read_bytes()))
+    assert explain_each({}, ExplainParameters(learnt=str(path))) == {}
+    path.write_text(path.read_text().replace("1", "2", 1))
+    with pytest.raises(RecordingError, match=r"mismatch_sizes\.json: these learnt sizes are damaged -> run"):
+        explain_each({}, ExplainParameters(learnt=str(path)))
+    path.with_name("mismatch_sizes.json.sha256").unlink()
+    assert explain_each({}, ExplainParameters(learnt=str(path))) == {}

@@ -80,7 +80,8 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue]) -> CommandO
         [(i.severity, i.name.replace("_", " "), i.where, i.advice) for i in issues],
         "What is wrong",
     )
-    notes = [*attrs.get("conversions", []), *attrs.get("notes", [])]
+    told = {issue.where for issue in issues}
+    notes = [*attrs.get("conversions", []), *(note for note in attrs.get("notes", []) if note not in told)]
     data = {
         "file": run,
         "format": attrs.get("format"),

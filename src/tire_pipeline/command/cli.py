@@ -6,11 +6,12 @@ import difflib
 import sys
 import warnings
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
 
-from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.errors import TirePipelineError, system_advice
 from tire_pipeline.pages.visible_text import visible
 
 WRONG_INPUT = 2
@@ -61,6 +62,7 @@ class OnDemand(click.Group):
         """Run a subcommand; what the user can put right is one line and exit code 2."""
         from tire_pipeline.progress import under_way  # not needed by the help
 
+        given = list(ctx.args)
         try:
             with warnings.catch_warnings(), under_way("tire", lambda: ctx.invoked_subcommand or ""):
                 warnings.showwarning = WarningsInOneLine()
@@ -68,9 +70,16 @@ class OnDemand(click.Group):
         except TirePipelineError as error:
             _fail(str(error))
         except OSError as error:
-            if error.filename is None:
+            advice = system_advice(error) or (error.filename and f"{error.filename}: {error.strerror}")
+            if not advice:
                 raise
-            _fail(f"{error.filename}: {error.strerror}")
+            _fail(advice)
+        except click.NoSuchOption as error:
+            files = [each for each in given if each.startswith("-") and Path(each).exists()]
+            if not files:
+                raise
+            said = f"{error.message} A file whose name begins with - is given as ./{files[0]}"
+            raise click.UsageError(said, ctx=error.ctx) from error
 
 
 def _fail(text: str) -> None:

@@ -75,6 +75,9 @@ def command(
     from tire_pipeline.reporting.mismatch.explained_recordings import check_effects
     from tire_pipeline.tir import read_tir
 
+    models = [run for run in runs if run.suffix.lower() == ".tir"]
+    if models and file.suffix.lower() != ".tir":
+        raise RecordingError("this is no recording", where=str(models[0]), todo="give the .tir file first")
     if corrected is not None:
         if str(file) == NO_TIRE:
             raise RecordingError("without a .tir file there is none to correct", todo="leave --corrected out")

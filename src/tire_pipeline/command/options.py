@@ -201,6 +201,8 @@ def check_target(path: Path, overwrite: bool, *sources: Path, option: str = "-o"
         raise TirError(
             "this is the input, which is never changed", path=str(path), todo=f"choose another {option}"
         )
+    if path.is_dir():
+        raise TirError("this is a folder", path=str(path), todo=f"choose another {option}")
     if path.exists() and not overwrite:
         raise TirError(
             "there is a file of that name",

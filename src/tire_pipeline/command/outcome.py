@@ -72,7 +72,7 @@ class CommandOutcome:
 
 
 def finish(outcome: CommandOutcome, name: str, *, page: Path | None, no_page: bool, as_json: bool) -> None:
-    """Write the page, then print the result.
+    """Write the page, then print the result; a page that cannot be written costs no result.
 
     Parameters
     ----------
@@ -82,15 +82,21 @@ def finish(outcome: CommandOutcome, name: str, *, page: Path | None, no_page: bo
     page : Path, optional
     no_page, as_json : bool
     """
-    written = [str(path) for path in outcome.written]
+    written, refusal = [str(path) for path in outcome.written], None
     if not no_page:
         target = page or Path(f"{name}.html")
-        write_bytes(target, outcome.page().encode())
-        written.append(str(target))
+        content = outcome.page().encode()
+        try:
+            write_bytes(target, content)
+            written.append(str(target))
+        except OSError as error:
+            refusal = error
     if as_json:
         click.echo(json.dumps(json_value({**outcome.data, "written": written}), ensure_ascii=False, indent=1))
-        return
-    _print(outcome, written)
+    else:
+        _print(outcome, written)
+    if refusal is not None:
+        raise refusal
 
 
 def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import glob
 import os
 import re
@@ -18,6 +19,8 @@ _OURS_PREFIX = "tire_pipeline-"  # no file or folder of the user is called so
 _OWNED = re.compile(
     rf"\.(?:(.*)\.)?{_OURS_PREFIX}([^-]+)-[^-.]+(?:{_NEW_SUFFIX}|{_OLD_SUFFIX})", re.DOTALL
 ).fullmatch
+_OF_WRITING = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+"""What a write into an open file can fail of: the system does not say which file it is."""
 _CHECKS: list[tuple[Callable[[], None], str]] = []
 
 
@@ -118,6 +121,10 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         temporary.replace(path)
     except FileNotFoundError:
         check_now()  # another run may have taken the folder over, and what was temporary with it
+        raise
+    except OSError as error:
+        if error.filename == name or (error.filename is None and error.errno in _OF_WRITING):
+            raise OSError(error.errno, error.strerror, str(path)) from error  # the user knows that file
         raise
     finally:
         with contextlib.suppress(OSError):

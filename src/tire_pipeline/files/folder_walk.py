@@ -218,6 +218,12 @@ class _Search:
                     where=shown_name(here.path),
                     todo="make it and put your files into it, or choose another folder",
                 ) from error
+            if isinstance(error, NotADirectoryError):
+                raise DomainError(
+                    "this is no folder",
+                    where=shown_name(here.path),
+                    todo="name the folder that holds your files",
+                ) from error
             raise DomainError(
                 f"this folder may not be read ({error.strerror})",
                 where=shown_name(here.path),

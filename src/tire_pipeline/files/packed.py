@@ -1,8 +1,9 @@
-"""Several files as the bytes of one ZIP; the same files give the same bytes."""
+"""Several files as the bytes of one ZIP, the same for the same files; and the hash of a file beside it."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 import lzma
 import struct
@@ -13,6 +14,28 @@ from collections.abc import Iterator, Mapping
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+
+_PACKED = {
+    b"PK\x03\x04": "a ZIP archive",
+    b"7z\xbc\xaf": "a 7z archive",
+    b"Rar!": "a RAR archive",
+    b"\x1f\x8b": "compressed by gzip",
+    b"BZh": "compressed by bzip2",
+    b"\xfd7zXZ\x00": "compressed by xz",
+    b"\x28\xb5\x2f\xfd": "compressed by zstd",
+}
+
+
+def kind_of_archive(head: bytes) -> str:
+    """What kind of archive or compressed file begins like this; empty if none does.
+
+    Examples
+    --------
+    >>> kind_of_archive(b"PK\\x03\\x04..."), kind_of_archive(b"[MDI_HEADER]")
+    ('a ZIP archive', '')
+    """
+    return next((kind for beginning, kind in _PACKED.items() if head.startswith(beginning)), "")
+
 
 _DATE = (1980, 1, 1, 0, 0, 0)
 
@@ -29,6 +52,26 @@ _OF_A_DAMAGED_ZIP = (
     OSError,
 )
 """What :mod:`zipfile` raises if some bytes are not what they were."""
+
+
+SEAL = ".sha256"
+"""What the name of a file with another one's hash ends in."""
+
+
+def seal_of(content: bytes) -> bytes:
+    """The hash of a file, for another file beside it.
+
+    Examples
+    --------
+    >>> is_as_sealed(b"a,b", seal_of(b"a,b")), is_as_sealed(b"a,c", seal_of(b"a,b"))
+    (True, False)
+    """
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+def is_as_sealed(content: bytes, seal: bytes) -> bool:
+    """Whether a file has the hash that lies beside it."""
+    return seal_of(content) == seal.strip()
 
 
 class Passing(bytes):

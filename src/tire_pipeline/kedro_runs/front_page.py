@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
 from pathlib import Path
@@ -50,15 +51,29 @@ class FrontPageHooks:
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:
         """Link what is there now, and say where."""
+        if self._folder is not None:
+            print(f"all reports: {self._make(self._folder)}")
+
+    @hook_impl(tryfirst=True)
+    def on_pipeline_error(self) -> None:
+        """A run may have drawn a page before it failed: what is quoted of that page is to be what it says.
+
+        It comes before the run's ticket is returned: a run that has lost it writes nothing more.
+        """
+        if isinstance(self._folder, Path) and self._folder.is_dir():
+            with contextlib.suppress(Exception):  # what the run failed of is told
+                self._make(self._folder)
+
+    def _make(self, folder: Path | Objects) -> str:
+        """Make the page; where it is."""
         from tire_pipeline.reporting.front import FRONT, front_page  # slow to import
 
-        if isinstance(self._folder, Objects):
+        if isinstance(folder, Objects):
             with tempfile.TemporaryDirectory() as copy:
-                _beginnings(self._folder, Path(copy))
-                self._folder.write(FRONT, front_page(Path(copy), self._described).encode())
-            print(f"all reports: {self._folder.address}/{FRONT}")
-        elif self._folder is not None:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            page = self._folder / FRONT
-            HtmlPageDataset(filepath=str(page)).save(front_page(self._folder, self._described))
-            print(f"all reports: {page}")
+                _beginnings(folder, Path(copy))
+                folder.write(FRONT, front_page(Path(copy), self._described).encode())
+            return f"{folder.address}/{FRONT}"
+        folder.mkdir(parents=True, exist_ok=True)
+        page = str(folder / FRONT)
+        HtmlPageDataset(filepath=page).save(front_page(folder, self._described))
+        return page

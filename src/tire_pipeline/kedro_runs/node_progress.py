@@ -45,7 +45,10 @@ class NodeProgressHooks:
 
     @hook_impl
     def before_pipeline_run(self, pipeline: Any) -> None:
-        """Count what there is to do."""
+        """Count what there is to do; no file has been named yet."""
+        self._name_files_again()
+        for handler in logging.getLogger().handlers:
+            handler.addFilter(FileNamedOnce())
         self._total, self._done, self._node = len(pipeline.nodes), 0, None
 
     @hook_impl
@@ -75,6 +78,7 @@ class NodeProgressHooks:
     def after_pipeline_run(self) -> None:
         """Say that the last node is done, before others say what the run has made."""
         self._begin(None)
+        self._name_files_again()
 
     @hook_impl
     def before_dataset_saved(self, dataset_name: str) -> None:
@@ -100,6 +104,14 @@ class NodeProgressHooks:
     def on_pipeline_error(self) -> None:
         """Nor of a dataset."""
         self._stop()
+        self._name_files_again()
+
+    @staticmethod
+    def _name_files_again() -> None:
+        """The next run names all files that cannot be read."""
+        for handler in logging.getLogger().handlers:
+            for each in [each for each in handler.filters if isinstance(each, FileNamedOnce)]:
+                handler.removeFilter(each)
 
     def _begin(self, node: Any) -> None:
         """Another node begins, or none: the one before is done."""
@@ -120,6 +132,22 @@ class NodeProgressHooks:
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
+
+
+class FileNamedOnce(logging.Filter):
+    """Lets a file that cannot be read be named once, though several pipelines of a run read it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._named: set[str] = set()
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether the record is about no such file, or about one that was not named before."""
+        file = getattr(record, "unread_file", None)
+        new = file not in self._named
+        if file is not None:
+            self._named.add(file)
+        return new
 
 
 class StandardOutput(io.TextIOBase):

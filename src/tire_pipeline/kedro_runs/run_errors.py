@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import re
 
 from kedro.config import MissingConfigException
@@ -11,15 +10,7 @@ from kedro.validation import ParameterValidationError
 from omegaconf.errors import OmegaConfBaseException
 from yaml import YAMLError
 
-from tire_pipeline.errors import TirePipelineError, chain
-
-_ADVICE = {
-    errno.ENOSPC: "the disk is full: make room, then run again",
-    errno.EDQUOT: "the disk quota is used up: make room, then run again",
-    errno.EACCES: "no permission: allow reading and writing there, then run again",
-    errno.EPERM: "no permission: allow reading and writing there, then run again",
-    errno.EROFS: "the folder is read-only: choose another, or mount it writable",
-}
+from tire_pipeline.errors import TirePipelineError, chain, system_advice
 
 _LINK = re.compile(r"\s*For further information visit https?://\S+")
 _ERROR_SECTION = re.compile(
@@ -49,13 +40,12 @@ def one_line(error: BaseException) -> str | None:
         if isinstance(each, TirePipelineError):
             text = str(each)
             break
-        if isinstance(each, OSError) and each.errno in _ADVICE:
-            where = f"{each.filename}: " if each.filename else ""
-            text = f"{where}{_ADVICE[each.errno]}"
+        if isinstance(each, OSError) and (advice := system_advice(each)):
+            text = advice
             break
         if isinstance(each, MissingConfigException):
             todo = "run it in the project's folder, whose path must not hold *, ? or ["
-            text = f"{each} -> {todo}; correct --env or --conf-source if you gave one"
+            text = f"{each} -> {todo}; correct --conf-source if you gave one"
             break
         if isinstance(each, YAMLError | OmegaConfBaseException):
             text = f"{each} -> correct it in conf or --params"

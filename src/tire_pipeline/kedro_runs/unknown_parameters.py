@@ -13,16 +13,18 @@ from kedro.framework.hooks import hook_impl
 from omegaconf.resolvers import oc
 
 from tire_pipeline.errors import DomainError, did_you_mean
+from tire_pipeline.kedro_runs.unknown_environment import check_environment
 
 _RUNTIME = re.compile(r"\$\{runtime_params:\s*(\w+)")
 
 
 class UnknownParameterHooks:
-    """Checks the top-level names of ``--params`` and of the files of parameters before anything runs."""
+    """Checks the environment, and the top-level names of parameters, before anything runs."""
 
     @hook_impl(tryfirst=True)
     def after_context_created(self, context: Any) -> None:
-        """Refuse a name that neither the parameters nor the catalog know."""
+        """Refuse a name that neither the folders, the parameters nor the catalog know."""
+        check_environment(context.config_loader)
         check_files(context.config_loader)
         asked = dict(context.config_loader.runtime_params or {})
         if asked:

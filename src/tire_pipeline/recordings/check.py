@@ -23,6 +23,7 @@ from tire_pipeline.recordings.conventions.plausible import (
 )
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.physical_signs import (
+    grip_of_no_tire,
     moment_beyond_reach,
     moment_of_other_sign,
     side_force_away_from_the_lean,
@@ -40,6 +41,7 @@ from tire_pipeline.recordings.whole_rows import (
     LONGEST_HOLE,
     USED,
     few_whole_rows,
+    unread_cells,
 )
 from tire_pipeline.small_loads import in_another_unit_as
 
@@ -87,6 +89,7 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
     if repeated:
         return [Issue("repeated_channel", "error", ", ".join(repeated), "keep one of each")]
     issues = _columns(recording) + _time(recording) + _values(recording)
+    issues += unread_cells(recording.attrs.get("notes", ()), recording.attrs.get("channels", {}).values())
     return sorted(issues, key=lambda issue: issue.severity != "error")
 
 
@@ -229,6 +232,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
     issues += slip_ratio_defined_otherwise(frame) + slip_too_small(frame) + moment_beyond_reach(frame)
     return [
         *issues,
+        *grip_of_no_tire(frame),
         *moment_of_other_sign(frame),
         *side_force_with_the_slip(frame),
         *side_force_away_from_the_lean(frame),

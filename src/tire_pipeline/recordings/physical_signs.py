@@ -11,7 +11,7 @@ from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FOR
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.pages.numbers_in_words import in_digits
-from tire_pipeline.recordings.conventions.plausible import FORCE_OVER_LOAD, plausible, size
+from tire_pipeline.recordings.conventions.plausible import FORCE_OVER_LOAD, plausible, size, unit_stated
 from tire_pipeline.recordings.issue import Issue
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
@@ -20,6 +20,13 @@ _SMALL_PART = 0.33
 STRAIGHT = 0.5
 """Squared correlation with the slip angle from which a slope is one."""
 FEWEST_ROWS = 10
+_LARGE_SLIP = 0.12
+"""Slip ratio, or slip angle (7 degrees), at which a tire is near its largest force (Pacejka 2012, ch. 1)."""
+_LEAST_GRIP = 0.3
+"""Of the load: packed snow has 0.2, wet asphalt 0.5 (Wong, Theory of Ground Vehicles, table 1.3)."""
+_MOST_APART = 3.0
+"""Longitudinal over lateral grip, or the other way round: tires have 0.7 to 1.5."""
+_NEWTONS = {"lbf": 4.448, "kgf": 9.807}
 
 
 def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
@@ -161,6 +168,45 @@ def _slopes_at_small_slip(frame: pd.DataFrame, outputs: Sequence[str]) -> list[f
     if np.sum(good) < FEWEST_ROWS or np.ptp(slip[good]) == 0.0:
         return []
     return [_slope(slip[good], y[good] / np.abs(load[good])) for y in sizes]
+
+
+def grip_of_no_tire(frame: pd.DataFrame) -> list[Issue]:
+    """Ask about a force that stays small beside the load, or beside the other force, at large slip.
+
+    A force in pounds labelled N is 4.4 times too small. Data cannot tell that from ice: it is a question.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns.
+    """
+    grips = {force: grip for slip, force in FORCE_OF_SLIP.items() if (grip := _grip(frame, slip)) > 0.0}
+    low, high = min(grips, key=grips.__getitem__, default=""), max(grips.values(), default=0.0)
+    if not low or (grips[low] >= _LEAST_GRIP and high < _MOST_APART * grips[low]):
+        return []
+    others = [f"{name} {in_digits(grip)}" for name, grip in grips.items() if name != low]
+    beside = f", {others[0]} of it" if others else ""
+    where = f"{low}, {in_digits(grips[low])} of the load at large slip{beside}"
+    as_stated = [f"{unit} ({in_digits(grips[low] * newtons)})" for unit, newtons in _NEWTONS.items()]
+    todo = (
+        f"is that so? Dry roads give about 1, ice 0.1. If {low} is in {' or '.join(as_stated)}, state it: "
+        f"{unit_stated(frame, low, next(iter(_NEWTONS)))}"
+    )
+    return [Issue("grip_of_no_tire", "warning", where, todo)]
+
+
+def _grip(frame: pd.DataFrame, slip: str) -> float:
+    """How much of the load a force reaches where its slip alone is large; 0 where it never is."""
+    columns = _columns(frame, (slip, "normal_load", FORCE_OF_SLIP[slip]))
+    if not columns:
+        return 0.0
+    x, load, y = columns
+    good = np.isfinite(x) & np.isfinite(y) & (np.abs(load) > _SMALL_PART * size(load))
+    good &= np.abs(x) > _LARGE_SLIP
+    for other in FORCE_OF_SLIP:
+        if other != slip and (held := _columns(frame, (other,))):
+            good &= ~(np.abs(held[0]) > PURE_SLIP_RATIO)
+    return float(np.quantile(np.abs(y[good] / load[good]), 0.9)) if good.sum() >= FEWEST_ROWS else 0.0
 
 
 def _columns(frame: pd.DataFrame, names: Sequence[str]) -> list[np.ndarray]:

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.packed import kind_of_archive
 from tire_pipeline.files.regular_file import no_regular_file
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
@@ -26,6 +27,8 @@ READERS: dict[str, Callable[[Path], RawRecording]] = {
     "MAT": read_mat,
     "Parquet": read_parquet,
 }
+_WORKBOOKS = (".xlsx", ".xlsm", ".ods")
+"""ZIP archives that nobody thinks of as such."""
 SUFFIXES: dict[str, str] = {
     ".tdx": "TYDEX",
     ".tydex": "TYDEX",
@@ -149,6 +152,11 @@ def _format(file: Path, format: str | None) -> str:
     if b"**HEADER" in head.upper() or b"**MEASURCHANNELS" in head.upper():
         return "TYDEX"
     kind = SUFFIXES.get(file.suffix.lower())
+    archive = kind_of_archive(head)
+    if kind is None and archive and file.suffix.lower() not in _WORKBOOKS:
+        raise RecordingError(
+            f"it is {archive}", where=str(file), todo="unpack it, and give the recordings that are in it"
+        )
     if kind is None:
         raise RecordingError(
             f"suffix {file.suffix!r} is not known",

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Iterable, Mapping
 
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, INPUT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.pages.numbers_in_words import how_many
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.spikes import LONGEST_SPIKE
 from tire_pipeline.recordings.stretches import stretches
@@ -20,6 +22,47 @@ LONGEST_HOLE = LONGEST_SPIKE
 """Samples: holes of up to so many are interpolated linearly in time."""
 USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
+
+
+UNREAD = "no number, and counted as missing"
+_HOW_TO_WRITE = (
+    (re.compile(r"\(.*\d.*\)|\d[\d.,]*-"), "write a negative value with a minus sign in front of it"),
+    (
+        re.compile(r"[<>]"),
+        "write the limit as a plain number, or leave the cell empty",
+    ),
+    (re.compile(r"#"), "correct the formula in the spreadsheet, then export it again"),
+    (re.compile(r"[+-]?\d[\d.,]*\s*[^\W\d_]+|.*%"), "write units in the head of the column only"),
+    (re.compile(r"[+-]?\d[\d.,' ]*"), "write all numbers of the column with the same decimal sign"),
+)
+_AS_A_NUMBER = "if it is a value, write it as a plain number such as -191.0; otherwise leave the cell empty"
+
+
+def said_of_unread(column: str, unread: np.ndarray, first: str) -> str:
+    """Say which cells of a column hold something that is no number.
+
+    Examples
+    --------
+    >>> said_of_unread("FY", np.array([False, True]), "(191.0)")
+    "FY: 1 cell is no number, and counted as missing; the first in data row 2: '(191.0)'"
+    """
+    count = int(unread.sum())
+    cells = f"{how_many(count, 'cell')} {'is' if count == 1 else 'are'}"
+    return f"{column}: {cells} {UNREAD}; the first in data row {int(unread.argmax()) + 1}: {first!r}"
+
+
+def unread_cells(notes: Iterable[str], columns: Collection[str]) -> list[Issue]:
+    """Report each of these columns that has such cells, with what to do."""
+    return [
+        Issue("cells_not_read", "warning", note, _how_to_write(note.partition(f"{UNREAD}; ")[2]))
+        for note in notes
+        if UNREAD in note and any(note.startswith(f"{column}: ") for column in columns)
+    ]
+
+
+def _how_to_write(where: str) -> str:
+    text = where.partition(": ")[2].strip("'\"")
+    return next((todo for form, todo in _HOW_TO_WRITE if form.match(text)), _AS_A_NUMBER)
 
 
 def apart(columns: Mapping[str, np.ndarray], force: str) -> str:

@@ -11,7 +11,7 @@ from pydantic import Field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
-from tire_pipeline.tire_table import TOO_SMALL, TableInPieces, usable_files
+from tire_pipeline.tire_table import NO_CATEGORY, TOO_SMALL, TableInPieces, usable_files
 
 _STATED_IN_FILE = ("UNLOADED_RADIUS",)
 """What a file must state beside its features: without it moments have no value to learn from."""
@@ -82,16 +82,19 @@ def _check_categories(kept: pd.DataFrame, report: Iterable[pd.DataFrame], target
         remains += f"; too small: {_listed(small)}"
     remains += _not_used(report)
     more = "add files to these, or lower dedupe_filter.minimum_per_category"
+    loose = any((frame["reason"] == NO_CATEGORY).any() for frame in report)
+    first = "put the files that lie in no folder into one for each organisation; " if loose else ""
     if len(have) < 2:
         raise DomainError(
             f"two categories are needed to tell organisations apart; {remains}",
             where="dedupe_filter",
-            todo=more if small else "add files of a second organisation",
+            todo=first + (more if small else "add files of a second organisation"),
         )
     raise DomainError(
         f"the target category {target_category!r} has no usable files; {remains}",
         where="dedupe_filter",
-        todo=more if target_category in small else "set target_category to one of those that remain",
+        todo=first
+        + (more if target_category in small else "set target_category to one of those that remain"),
     )
 
 

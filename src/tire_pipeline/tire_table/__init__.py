@@ -4,6 +4,7 @@ from tire_pipeline.tire_table.binning import Binning
 from tire_pipeline.tire_table.dedupe import (
     IDENTICAL,
     LARGEST_TO_SQUARE,
+    NO_CATEGORY,
     NO_VALUE,
     OVER_MOST,
     OVERFLOWS,
@@ -22,6 +23,7 @@ __all__ = [
     "KNOWN_COEFFICIENTS",
     "LARGEST_TO_SQUARE",
     "METADATA",
+    "NO_CATEGORY",
     "NO_VALUE",
     "OVERFLOWS",
     "OVER_MOST",

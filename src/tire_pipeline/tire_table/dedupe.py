@@ -17,6 +17,7 @@ IDENTICAL = "identical coefficients"
 NO_VALUE = "feature without a value"
 OVERFLOWS = "value that overflows"
 TOO_SMALL = "category too small"
+NO_CATEGORY = "in no folder"
 OVER_MOST = "more files than training takes"
 
 LARGEST_TO_SQUARE = float(np.sqrt(np.finfo(np.float32).max))
@@ -35,11 +36,12 @@ def dedupe_and_filter(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Drop duplicates, files with features without a value, and small categories (thesis, section 4.1).
 
-    In this order, each step on what the one before left: first files whose p, q, r, s coefficients, scale
-    factors and ``FNOMIN`` are all equal to those of an earlier row (to the bit; a missing one equals a
-    missing one), whatever their category; then files that lack a feature; then files with a number that
-    overflows when it is squared in single precision, or a nominal load so near zero; then categories with
-    fewer than ``minimum_per_category`` files left. So a category counts by what can be used of it.
+    In this order, each step on what the one before left: first files that lie in no folder, of which nobody
+    knows who measured them; then files whose p, q, r, s coefficients, scale factors and ``FNOMIN`` are all
+    equal to those of an earlier row (to the bit; a missing one equals a missing one), whatever their
+    category; then files that lack a feature; then files with a number that overflows when it is squared in
+    single precision, or a nominal load so near zero; then categories with fewer than
+    ``minimum_per_category`` files left. So a category counts by what can be used of it.
 
     Parameters
     ----------
@@ -55,8 +57,8 @@ def dedupe_and_filter(
         The rows that stay, in their order, with a new index.
     report : DataFrame
         One row a dropped file, in the table's order: ``file, category, reason, detail``. ``reason`` is one
-        of ``IDENTICAL``, ``NO_VALUE``, ``OVERFLOWS`` and ``TOO_SMALL``; ``detail`` names the file that
-        stays, the features, the values, or the count.
+        of ``IDENTICAL``, ``NO_CATEGORY``, ``NO_VALUE``, ``OVERFLOWS`` and ``TOO_SMALL``; ``detail`` names
+        the file that stays, the features, the values, or the count.
 
     Raises
     ------
@@ -153,6 +155,7 @@ def _marked(keys: Iterable[pd.DataFrame], minimum: int) -> RowsOnDisk:
     rows = RowsOnDisk(_MARKED)
     for frame in keys:
         rows.add(frame.assign(reason="", detail="")[_MARKED].astype(object).itertuples(index=False))
+    _mark(rows, NO_CATEGORY, "?", "category = ''", "its folder would say which organisation measured it")
     _mark_identical(rows)
     for column, why in (("missing", NO_VALUE), ("overflow", OVERFLOWS)):
         _mark(rows, why, column, f"{column} <> ''")
@@ -173,10 +176,12 @@ def _report(marked: RowsOnDisk) -> FramesOfRows:
 
 def _mark_identical(rows: RowsOnDisk) -> None:
     """With ``min``, SQLite gives the file of the row that has it."""
-    first = "select equal, file, min(place) as place from rows group by equal having count(*) > 1"
+    first = (
+        f"select equal, file, min(place) as place from rows where {_STAYS} group by equal having count(*) > 1"
+    )
     rows.do(
         f"update rows set reason = '{IDENTICAL}', detail = 'as ' || first.file from ({first}) as first "
-        "where rows.equal = first.equal and rows.place <> first.place"
+        f"where {_STAYS} and rows.equal = first.equal and rows.place <> first.place"
     )
 
 

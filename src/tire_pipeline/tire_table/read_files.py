@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from operator import itemgetter
 from typing import Any
@@ -94,13 +94,21 @@ def join_files(
         rows.add(map(itemgetter(*REPORT_COLUMNS), rows_of(part)))
         pieces.append(Piece(count, numbers_of(columns), partial(_table_of, read)))
     aside = rows.do(f"{_SELECT_ASIDE} order by file limit {NAMED_IN_LOG + 1}").fetchall()
-    for file, reason in aside[:NAMED_IN_LOG]:
-        _LOG.warning("%s is set aside: %s", file, reason)
+    name_unread(aside[:NAMED_IN_LOG], "is set aside")
     if len(aside) > NAMED_IN_LOG:
         _LOG.warning("more files are set aside: the ingest report has them all")
     _refuse_mostly_unread(rows, parameters)
     report = FramesOfRows(rows, "select * from rows order by file", REPORT_COLUMNS)
     return TableInPieces(tuple(pieces)), report, _summary(rows)
+
+
+def name_unread(files: Iterable[tuple[str, str]], what: str) -> None:
+    """Name files that cannot be read in the log, with what became of each and the reason.
+
+    A record says which file it is about: a run names a file once, whichever of its pipelines reads it first.
+    """
+    for file, reason in files:
+        _LOG.warning("%s %s: %s", file, what, reason, extra={"unread_file": file})
 
 
 def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:

@@ -2,27 +2,59 @@
 
 from __future__ import annotations
 
-import pandas as pd
-from kedro_datasets._typing import TablePreview
-from kedro_datasets.pandas import CSVDataset
+import io
+from typing import Any
 
-from tire_pipeline.datasets.tables.previewed import readable
+import pandas as pd
+from kedro.io.core import Version
+from kedro_datasets._typing import TablePreview
+
+from tire_pipeline.datasets.storage.sealed_beside import SealedBesideDataset
+from tire_pipeline.datasets.tables.previewed import first_rows
 from tire_pipeline.pages.safe_csv import original_table, safe_table
 
 
-class CsvTableDataset(CSVDataset):
-    """``pandas.CSVDataset`` whose texts begin no formula in a spreadsheet; a load gives them as they were.
+class CsvTableDataset(SealedBesideDataset[pd.DataFrame]):
+    """A table as a CSV whose texts begin no formula in a spreadsheet; a load gives them as they were.
 
-    See :mod:`tire_pipeline.pages.safe_csv`.
+    See :mod:`tire_pipeline.pages.safe_csv`. A version's hash lies beside it.
+
+    Parameters
+    ----------
+    filepath : str
+        Local path or address of an object.
+    version : kedro.io.Version, optional
+        Given by the catalog when ``versioned: true``.
+    save_args : dict, optional
+        For ``DataFrame.to_csv``; the index is not written unless they say so.
+    metadata : dict, optional
+        For kedro-viz.
+
+    Raises
+    ------
+    DomainError
+        On loading: the file is not what was stored.
     """
+
+    def __init__(
+        self,
+        *,
+        filepath: str,
+        version: Version | None = None,
+        save_args: dict[str, Any] | None = None,
+        metadata: dict[str, Any] | None = None,
+    ) -> None:
+        super().__init__(filepath=filepath, version=version, metadata=metadata)
+        self._save_args = {"index": False, **(save_args or {})}
 
     def load(self) -> pd.DataFrame:
         """The table as it was saved."""
-        return original_table(super().load())
+        return original_table(pd.read_csv(io.BytesIO(self._read_sealed())))
 
     def save(self, data: pd.DataFrame) -> None:
         """Write the table."""
-        super().save(safe_table(data))
+        text = safe_table(data).to_csv(**self._save_args)
+        self._write_sealed(text.encode())
 
     def preview(self, nrows: int = 5) -> TablePreview:
         """Return the first rows, for a person.
@@ -31,4 +63,4 @@ class CsvTableDataset(CSVDataset):
         ----------
         nrows : int
         """
-        return readable(super().preview(nrows))
+        return first_rows(self.load(), nrows)

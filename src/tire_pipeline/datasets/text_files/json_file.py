@@ -6,23 +6,60 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
-from kedro.io.core import get_filepath_str
+from kedro.io.core import Version, get_filepath_str
 from kedro_datasets._typing import JSONPreview
 from kedro_datasets.json import JSONDataset
 
+from tire_pipeline.datasets.storage.sealed_beside import SealedBesideDataset
 from tire_pipeline.pages.visible_text import visible_texts
 
 
-class JsonFileDataset(JSONDataset):
-    """``json.JSONDataset`` with a preview for a person."""
+class JsonFileDataset(SealedBesideDataset[Any]):
+    """What JSON can hold, with a preview for a person; a version's hash lies beside it.
+
+    Parameters
+    ----------
+    filepath : str
+        Local path or address of an object.
+    version : kedro.io.Version, optional
+        Given by the catalog when ``versioned: true``.
+    save_args : dict, optional
+        For ``json.dumps``.
+    metadata : dict, optional
+        For kedro-viz.
+
+    Raises
+    ------
+    DomainError
+        On loading: the file is not what was stored.
+    """
+
+    def __init__(
+        self,
+        *,
+        filepath: str,
+        version: Version | None = None,
+        save_args: dict[str, Any] | None = None,
+        metadata: dict[str, Any] | None = None,
+    ) -> None:
+        super().__init__(filepath=filepath, version=version, metadata=metadata)
+        self._save_args = {"indent": 2, **(save_args or {})}
+
+    def load(self) -> Any:
+        """What was saved."""
+        return json.loads(self._read_sealed())
+
+    def save(self, data: Any) -> None:
+        """Write it."""
+        self._write_sealed(json.dumps(data, **self._save_args).encode())
 
     def preview(self) -> JSONPreview:
         """Return all of it, its keys and texts by :func:`visible`."""
-        return JSONPreview(json.dumps(visible_texts(json.loads(super().preview()))))
+        return JSONPreview(json.dumps(visible_texts(self.load())))
 
 
-class JsonItemsDataset(JsonFileDataset):
-    """A dictionary whose values are asked for one at a time when it is saved."""
+class JsonItemsDataset(JSONDataset):
+    """A dictionary whose values are asked for one at a time when it is saved: for people, no run reads it."""
 
     DEFAULT_SAVE_ARGS: ClassVar[dict[str, Any]] = {"indent": 1}
 

@@ -15,6 +15,7 @@ from typing import Any, NoReturn
 import pandas as pd
 
 from tire_pipeline.datasets.storage.at_path import DatasetAtPath
+from tire_pipeline.datasets.users_files.archives import to_unpack
 from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
@@ -70,7 +71,8 @@ class RecordingFolderDataset(DatasetAtPath[None, dict[str, Callable[[], Pair]]])
             raise DomainError(
                 "there are no recordings below this folder",
                 where=self._path,
-                todo="put <name>/recording.csv and <name>/model.tir there; its README says what is read",
+                todo=f"{to_unpack(self._path)}put <name>/recording.csv and <name>/model.tir there; "
+                "docs/reference/recordings.md says what is read",
             )
         return dict(sorted(recordings.items()))
 

@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
 
+from tire_pipeline.datasets.users_files.archives import to_unpack
 from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
@@ -60,13 +61,22 @@ class TirFolderDataset(PartitionedDataset):
         """Partition name (``category/file.tir``) to a function that reads it."""
         partitions = self._local() if self._protocol == "file" else self._remote()
         if not partitions and not self._may_be_absent:
+            what, first = self._why_empty()
             raise DomainError(
-                "there are no .tir files below this folder",
+                what,
                 where=self._path,
-                todo="put files into <folder>/<category>/*.tir, set tir_folder, or make a "
+                todo=f"{first}put files into <folder>/<category>/*.tir, set tir_folder, or make a "
                 "demonstration fleet with `kedro run --pipeline make_fleet`",
             )
         return partitions
+
+    def _why_empty(self) -> tuple[str, str]:
+        """What is there in place of .tir files, and what to do about that."""
+        if self._protocol != "file" or os.path.isdir(self._path):
+            return "there are no .tir files below this folder", to_unpack(self._path)
+        if os.path.lexists(self._path):
+            return "there are no .tir files: this is no folder", "name the folder that holds your files; or "
+        return "there are no .tir files: there is no such folder", ""
 
     def _local(self) -> dict[str, Callable[[], Any]]:
         if not os.path.isdir(self._path):

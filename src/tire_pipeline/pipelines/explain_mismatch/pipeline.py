@@ -2,7 +2,11 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.reporting.mismatch.explained_recordings import collect_explained, explain_each
+from tire_pipeline.reporting.mismatch.explained_recordings import (
+    collect_explained,
+    explain_each,
+    refuse_none_explained,
+)
 from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, rows_to_keep
 
 
@@ -33,6 +37,12 @@ def create_pipeline(**_: object) -> Pipeline:
                 inputs=["mismatch_overview", "mismatch_pages", "mismatch_rows"],
                 outputs=["mismatch_overview_page", "mismatch_outcome"],
                 name="draw_overview",
+            ),
+            Node(
+                refuse_none_explained,
+                inputs=["mismatch_overview", "mismatch_outcome"],
+                outputs=None,
+                name="check_any_explained",
             ),
         ]
     )

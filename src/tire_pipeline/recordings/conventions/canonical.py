@@ -180,9 +180,9 @@ def _in_si(
 
 
 def _no_overflow(name: str, values: NDArray[np.float64], notes: list[str]) -> NDArray[np.float64]:
-    """Put NaN where a number is so large that its square is none: no channel reaches it."""
+    """Put NaN where a number is infinite, or so large that its square is: no channel reaches it."""
     with np.errstate(over="ignore", invalid="ignore"):
-        beyond = np.isfinite(values) & ~np.isfinite(values * values)
+        beyond = ~np.isnan(values) & ~np.isfinite(values * values)
     if not beyond.any():
         return values
     notes.append(f"{name}: {int(beyond.sum())} values are beyond any measurement and became NaN")

@@ -30,6 +30,7 @@ from tire_pipeline.recordings.readers.separators import (
     separators,
 )
 from tire_pipeline.recordings.readers.time_stamps import seconds_of
+from tire_pipeline.recordings.whole_rows import said_of_unread
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
@@ -316,11 +317,7 @@ def _channel(
             notes.append(f"{name}: text, left out")
             return None
     if lost.any():
-        first = int(lost.argmax())
-        notes.append(
-            f"{name}: {int(lost.sum())} cells are no numbers and became NaN, the first in data row "
-            f"{first + 1}: {text.iloc[first]!r}"
-        )
+        notes.append(said_of_unread(name, lost, str(column.iloc[int(lost.argmax())]).strip()))
     return RawChannel(name, unit, values)
 
 

@@ -7,18 +7,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from functools import partial
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any, Literal
 
+import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError, did_you_mean
-from tire_pipeline.files.packed import member, unpack
+from tire_pipeline.files.packed import SEAL, is_as_sealed, member, unpack
 from tire_pipeline.files.read_later import Read
 from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
@@ -136,13 +137,25 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
     code = code_hash("mismatch", "magic_formula", "tir", "recordings", "reporting")
-    sizes, tasks = learnt(parameters.learnt), {}
+    sizes, tasks = _learnt_as_sealed(parameters.learnt), {}
     for name, members in groups.items():
         loads = {each: recordings[each] for each in members}
         how = {each: parameters.how(each) for each in members}
         task = ExplainTask(name, loads, how, held_out.get(name), sizes, parameters.left_out(members))
         tasks[f"{code}/{task.key}.zip"] = task
     return tasks
+
+
+def _learnt_as_sealed(path: str) -> LearntSizes:
+    """Sizes of a file; if its hash lies beside it, as ``calibrate_mismatch`` writes both, it must be that."""
+    seal = Path(path + SEAL)
+    if path and seal.is_file() and not is_as_sealed(Path(path).read_bytes(), seal.read_bytes()):
+        raise RecordingError(
+            "these learnt sizes are damaged",
+            where=path,
+            todo=f"run calibrate_mismatch again, or remove {seal.name} if you changed them yourself",
+        )
+    return learnt(path)
 
 
 def collect_explained(
@@ -168,11 +181,6 @@ def collect_explained(
         In the same way, ``.tir`` files with the missing physics added, and sidecars for what the format
         cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
         a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
-
-    Raises
-    ------
-    RecordingError
-        If not one recording could be explained.
     """
     reports, rows = ReportsByName(), RowsOnDisk(COLUMNS)
     pages, corrected = dict[str, Read](), dict[str, Read | None]()
@@ -187,7 +195,6 @@ def collect_explained(
         pages[result_place(row["recording"], ".html")] = partial(_member, read, PAGE)
         corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
-    _check_any(reports, rows)
     overview = FramesOfRows(rows, "select * from rows order by rowid", dict.fromkeys(COLUMNS, "str"))
     return reports, overview, pages, corrected
 
@@ -216,16 +223,33 @@ class ReportsByName(Mapping[str, Any]):
         return len(self.read)
 
 
-def _check_any(reports: Mapping[str, Any], rows: RowsOnDisk) -> None:
-    if not reports:
-        (count,) = rows.do("select count(*) from rows").fetchone()
-        first = rows.do(f"select recording, problem from rows order by rowid limit {_MOST_TOLD}")
-        told = [f"{recording}: {problem}" for recording, problem in first]
-        more = [f"and {count - len(told)} more"] if count > len(told) else []
-        raise RecordingError(
-            f"none of {count} recordings could be explained; {'; '.join(told + more)}",
-            todo="correct that, then run again",
-        )
+def refuse_none_explained(overview: Iterable[pd.DataFrame], outcome: list[str]) -> None:
+    """End the run with an error if not one recording could be explained; its page is drawn by then.
+
+    Parameters
+    ----------
+    overview : iterable of DataFrame
+        Of :func:`collect_explained`.
+    outcome : list of str
+        What the page says, so that it is drawn first: that of an earlier run would be taken for this one's.
+
+    Raises
+    ------
+    RecordingError
+        With the first problems.
+    """
+    count, told = 0, list[str]()
+    for frame in overview:
+        if frame["verdict"].fillna("").astype(bool).any():
+            return
+        count += len(frame)
+        first = frame[["recording", "problem"]].head(_MOST_TOLD - len(told))
+        told += [f"{recording}: {problem}" for recording, problem in first.itertuples(index=False)]
+    more = [f"and {count - len(told)} more"] if count > len(told) else []
+    raise RecordingError(
+        f"none of {count} recordings could be explained; {'; '.join(told + more)}",
+        todo="correct that, then run again",
+    )
 
 
 def _member(read: Read, name: str) -> bytes:

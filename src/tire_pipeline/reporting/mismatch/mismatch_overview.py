@@ -53,11 +53,15 @@ def rows_to_keep(overview: Iterable[pd.DataFrame]) -> NotedRows:
     NotedRows
         JSON by path: the report's path with another ending. ``run`` is the time of the run.
     """
-    now = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
+    now = _now()
     said = (row for row in _texts(overview) if row["verdict"])
     return NotedRows(
         (result_place(row["recording"], ".json"), json.dumps({**row, "run": now})) for row in said
     )
+
+
+def _now() -> str:
+    return f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
 
 
 class NotedRows(Mapping[str, Callable[[], bytes]]):
@@ -119,14 +123,14 @@ def draw_overview(
         outcome += [f"{row['recording']}: {_said(row)}" for row in last.first]
     parts: list[Part] = [
         Text(outcome[:1], emphasis=True),
-        Text([_EARLIER_REPORTS]),
+        Text([f"The last run was on {_now()}.", _EARLIER_REPORTS]),
         Links([_link(row) for row in last.first], heading="Recordings of the last run"),
         *last.more("All recordings of the last run are in the table (CSV) below."),
     ]
     if earlier.count:
         parts.append(Links([_link(row) for row in earlier.first], heading="Reports of earlier runs"))
         parts += earlier.more("The pages of all are in the folder mismatch beside this page.")
-    parts += [_in_one_table(last, earlier), Links([_CSV])]
+    parts += [_in_one_table(last, earlier), *([Links([_CSV])] if last.any_explained else [])]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 
 
@@ -145,6 +149,11 @@ class _ListedReports:
     def first(self) -> list[dict[str, str]]:
         query = f"select text from rows order by {self.order} limit {MOST_LISTED}"
         return [json.loads(text) for (text,) in self.rows.do(query)]
+
+    @cached_property
+    def any_explained(self) -> bool:
+        """Whether a recording has a page; a run without one ends in an error, and leaves no table."""
+        return bool(self.rows.do("select exists (select 1 from rows where page != '')").fetchone()[0])
 
     def more(self, where: str) -> list[Part]:
         """What is said of those that are not listed."""
@@ -176,10 +185,19 @@ def _earlier(last: RowsOnDisk, pages: Iterable[str], rows: Mapping[str, bytes | 
             continue
         unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
         kept = rows.get(f"{page.removesuffix('.html')}.json")
-        row = unknown if kept is None else json.loads(kept)
+        row = unknown if kept is None else _noted(kept) or unknown
         row = {**dict.fromkeys(_HEADS, ""), **row, "page": page}
         found.add([(page, _date(row), json.dumps(row))])
     return _ListedReports(found, "date desc, page")
+
+
+def _noted(text: bytes | str) -> dict[str, str]:
+    """What an earlier run noted; nothing if the note is damaged."""
+    try:
+        row = json.loads(text)
+    except ValueError:
+        return {}
+    return {str(name): str(value) for name, value in row.items()} if isinstance(row, dict) else {}
 
 
 def _link(row: Mapping[str, str]) -> tuple[str, str, str]:

@@ -79,7 +79,7 @@ def decode(data: bytes, path: str | None = None) -> tuple[str, str, bytes]:
         if data.startswith(bom):
             mark, encodings = bom, (name,)
     if mark[:1] not in (b"\xff", b"\xfe") and _looks_binary(data):
-        raise _binary(path)
+        raise _binary(path, data)
     for encoding in encodings:
         try:
             text = data[len(mark) :].decode(encoding)
@@ -98,7 +98,13 @@ def _looks_binary(data: bytes) -> bool:
     return len(data) - len(data.translate(None, _CONTROL)) > _MOST_CONTROL * len(data)
 
 
-def _binary(path: str | None) -> TirSyntaxError:
+def _binary(path: str | None, data: bytes = b"") -> TirSyntaxError:
+    from tire_pipeline.files.packed import kind_of_archive  # loads pandas, which no .tir file needs
+
+    if archive := kind_of_archive(data):
+        return TirSyntaxError(
+            f"is no tire property file: it is {archive}", path=path, todo="unpack it, and give the .tir file"
+        )
     return TirSyntaxError(
         "is a binary file, not a tire property file", path=path, todo="export it as text (.tir)"
     )

@@ -23,7 +23,7 @@ from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_blocks import TireFiles, digest_of, divided
-from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
+from tire_pipeline.tire_table.read_files import NAMED_IN_LOG, name_unread
 from tire_pipeline.translation.base import JudgingTranslator, judging, translator_from_state
 from tire_pipeline.translation.files.translated_block import (
     Given,
@@ -213,8 +213,7 @@ def _tell_unreadable(rows: RowsOnDisk, *, any_read: bool) -> None:
     """Name those that could not be read in the log; an error if there are no others."""
     aside = "from rows where unreadable"
     first = rows.do(f"select file, reason {aside} order by file limit {NAMED_IN_LOG}").fetchall()
-    for file, reason in first:
-        _LOG.warning("%s is refused: %s", file, reason)
+    name_unread(first, "is refused")
     (count,) = rows.do(f"select count(*) {aside}").fetchone()
     if (more := count - len(first)) > 0:
         _LOG.warning("%d more files cannot be read: the table of the translated files has them all", more)
