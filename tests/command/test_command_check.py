@@ -81,6 +81,19 @@ def test_check_says_that_names_tell_the_axes(folder):
     assert "Read with SAE axes, as stated: at a positive" in run("check", "run.csv", "--axes", "SAE").stdout
 
 
+def test_adapted_sae_axes_can_be_stated(folder):
+    """The check asked for axes="adapted SAE", and --axes refused them."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv")
+    rows.assign(slip_angle=-rows["slip_angle"]).to_csv("turned.csv", index=False)
+    assert "--axes adapted-SAE" in run("check", "turned.csv", "--no-page").stdout
+    for stated in ("adapted-SAE", "turned.csv:adapted_sae"):
+        shown = run("check", "turned.csv", "--axes", stated, "--no-page").stdout
+        assert "at a positive slip angle the side force is negative, as in ISO W." in shown
+        assert "adapted-SAE" not in shown
+    assert "is not ISO, SAE or adapted-SAE" in run("check", "turned.csv", "--axes", "XYZ", code=2).output
+
+
 def test_check_says_the_rate_and_which_sign_the_side_force_has(folder):
     record("run.csv", seconds=5.0)
     shown = run("check", "run.csv", "--no-page").stdout

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.errors import DomainError, RecordingError, TirError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -72,16 +72,23 @@ def radius_option(function: F) -> F:
 
 
 class _Axes(click.ParamType):
-    """``SAE``, or ``run.csv:SAE`` for one of several recordings."""
+    """``SAE``, or ``run.csv:SAE`` for one of several recordings; ``adapted-SAE`` for Pacejka's system."""
 
     name = "axes"
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the text with axes in capitals."""
+        """Return the text with the axes' own name."""
+        from tire_pipeline.recordings.conventions.axis_systems import named_axes  # slow to import
+
         run, colon, axes = value.rpartition(":")
-        if axes.upper() not in ("ISO", "SAE"):
-            self.fail(f"{value!r} is not ISO, SAE, or either for one recording: run.csv:SAE", param, ctx)
-        return f"{run}{colon}{axes.upper()}"
+        try:
+            return f"{run}{colon}{named_axes(axes)}"
+        except RecordingError:
+            self.fail(
+                f"{value!r} is not ISO, SAE or adapted-SAE, or one of these for one recording: run.csv:SAE",
+                param,
+                ctx,
+            )
 
 
 def reading_options(function: F) -> F:
@@ -112,7 +119,7 @@ def reading_options(function: F) -> F:
             "--axes",
             type=_Axes(),
             multiple=True,
-            metavar="[ISO|SAE]",
+            metavar="[ISO|SAE|adapted-SAE]",
             help="Axes of the file, if the names of its channels do not tell. Default: ISO, with a note.",
         ),
     ):

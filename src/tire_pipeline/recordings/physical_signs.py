@@ -70,8 +70,8 @@ def side_force_with_the_slip(frame: pd.DataFrame) -> list[Issue]:
             "side_force_of_other_sign",
             "warning",
             "fy, which rises with the slip angle",
-            'in ISO and in SAE axes it falls: the file is in adapted SAE axes (axes="adapted SAE"), or fy or '
-            "slip_angle has the other sign",
+            'in ISO and in SAE axes it falls: the file is in adapted SAE axes (axes="adapted SAE", --axes '
+            "adapted-SAE), or fy or slip_angle has the other sign",
         )
     ]
 

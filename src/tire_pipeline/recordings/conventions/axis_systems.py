@@ -69,7 +69,7 @@ def to_iso_w(
     """
     told = axes is not None
     by_camber = "" if told else _by_camber(frame, origin)
-    axes = _known(axes) if axes is not None else by_camber or "ISO"
+    axes = named_axes(axes) if axes is not None else by_camber or "ISO"
     turned = {n for n, sign in AXES[axes]._asdict().items() if sign < 0.0}  # Fz is looked at below
     there = [column for column in frame if str(column).removeprefix(_OF_SIMULATION) in turned]
     for column in there:
@@ -98,7 +98,7 @@ def to_iso_w(
     return NOT_STATED + (f" ({against}; only Fz was mirrored)" if against else ""), against
 
 
-def _known(axes: str) -> str:
+def named_axes(axes: str) -> str:
     """Return an axis system by its name, in any case and with blanks, ``_`` or ``-``."""
     spelt = {name.replace(" ", "").upper(): name for name in AXES}
     name = spelt.get(axes.upper().translate(str.maketrans("", "", " _-")))

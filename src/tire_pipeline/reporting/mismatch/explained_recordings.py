@@ -46,7 +46,7 @@ class RecordingRule(Parameters):
     ----------
     match : str
         Pattern of their paths or file names, such as ``rig_b/*.csv``.
-    axes : {"ISO", "SAE"}, optional
+    axes : {"ISO", "SAE", "adapted SAE"}, optional
         Axes of their channels.
     units : dict of str to str
         By the file's channel name: its unit.
@@ -60,7 +60,7 @@ class RecordingRule(Parameters):
     """
 
     match: str = Field("*", min_length=1)
-    axes: Literal["ISO", "SAE"] | None = None
+    axes: Literal["ISO", "SAE", "adapted SAE"] | None = None
     units: dict[str, str] = {}
     names: dict[str, str | float] = {}
     tir: str = ""
@@ -82,7 +82,7 @@ class ExplainParameters(Parameters):
         With ``together``: pattern of the recording of each folder that takes no part and is predicted.
     only : list of str
         Recordings, folders or patterns; empty is all. On the command line several are separated by ``;``.
-    axes : {"ISO", "SAE"}, optional
+    axes : {"ISO", "SAE", "adapted SAE"}, optional
         Axes of all recordings, unless a rule of ``recordings`` says otherwise.
     without : list of str
         Effects of the catalogue that are looked for in no recording.
@@ -95,7 +95,7 @@ class ExplainParameters(Parameters):
     together: bool = False
     hold_out: str = ""
     only: Several = []
-    axes: Literal["ISO", "SAE"] | None = None
+    axes: Literal["ISO", "SAE", "adapted SAE"] | None = None
     without: Several = []
     recordings: list[RecordingRule] = []
     learnt: str = ""
