@@ -13,6 +13,7 @@ from tire_pipeline.magic_formula.parameters.camber_thrust import camber_thrust
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.conventions.plausible import FORCE_OVER_LOAD, plausible, size, unit_stated
 from tire_pipeline.recordings.issue import Issue
+from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE
 
 _OF_LEAN = ("slip_angle", "camber", "normal_load", "fy")
 _SMALL_PART = 0.33
@@ -26,7 +27,7 @@ _LEAST_GRIP = 0.3
 """Of the load: packed snow has 0.2, wet asphalt 0.5 (Wong, Theory of Ground Vehicles, table 1.3)."""
 _MOST_APART = 3.0
 """Longitudinal over lateral grip, or the other way round: tires have 0.7 to 1.5."""
-_NEWTONS = {"lbf": 4.448, "kgf": 9.807}
+_NEWTONS = {"lbf": POUND_FORCE, "kgf": GRAVITY}
 
 
 def moment_of_other_sign(frame: pd.DataFrame) -> list[Issue]:
