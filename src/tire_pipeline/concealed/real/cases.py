@@ -218,7 +218,7 @@ def _rate(
 
 def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedSession:
     timed = "time" in raw
-    work = float(friction_work(raw)[-1])
+    work = friction_work(raw)
     return RecordedSession(
         formula=formula,
         start=float(raw["time"].iloc[0]) if timed else 0.0,
@@ -226,10 +226,11 @@ def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedS
         load=float(raw["normal_load"].median()),
         speed=float(raw["speed"].median()) if "speed" in raw else 1.0,
         temperature=float(raw["tread_temperature"].mean()) if "tread_temperature" in raw else 0.0,
-        work=max(work, 1e-9),
+        work=max(float(work[-1]), 1e-9),
         largest=float(raw["fy"].abs().max()),
         opposing=float(np.sign(np.corrcoef(raw["slip_angle"], raw["fy"])[0, 1])) or 1.0,
         radius=UNLOADED_RADIUS[layout.shown[0].source],
+        done=(raw["time"].to_numpy() if timed else np.arange(len(raw)), work),
     )
 
 

@@ -43,6 +43,9 @@ class RecordedSession:
         -1 where a positive slip angle gives a negative side force, else 1.
     radius : float
         Of the wheel, m.
+    done : tuple of ndarray, shape (n,)
+        Times, s, and the friction work that the recording has done by then, J. A sweep that is held out of it
+        has the same tire.
     """
 
     formula: TireModel
@@ -55,6 +58,7 @@ class RecordedSession:
     largest: float
     opposing: float
     radius: float
+    done: tuple[np.ndarray, np.ndarray] = (np.zeros(1), np.zeros(1))
 
 
 @dataclass(frozen=True)
@@ -212,7 +216,8 @@ def _speed(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Detai
 
 
 def _wear(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
-    return _similar(frame, s, np.maximum(1.0 + x * friction_work(frame) / s.work, 0.1))
+    before = np.interp(frame["time"].iloc[0], *s.done)
+    return _similar(frame, s, np.maximum(1.0 + x * (before + friction_work(frame)) / s.work, 0.1))
 
 
 def _surface(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, d: Details) -> Frame:
