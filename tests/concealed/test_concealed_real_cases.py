@@ -1,6 +1,7 @@
 """Cases from real recordings: which sweeps they are made from, and what is put into them."""
 
 import os
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -11,7 +12,13 @@ import pytest
 from tire_pipeline.concealed import seal, unseal
 from tire_pipeline.concealed.real import RealAnswer, make_real_case, real_plan
 from tire_pipeline.concealed.real.plan import EFFECTS, HIDEABLE, SOURCE_KINDS, SOURCE_SHARES
-from tire_pipeline.concealed.real.put_in import INSERTED_EFFECTS, Details, RecordedSession, put_in
+from tire_pipeline.concealed.real.put_in import (
+    INSERTED_EFFECTS,
+    Details,
+    RecordedSession,
+    friction_work,
+    put_in,
+)
 from tire_pipeline.concealed.real.sources import SOURCES, development_list, pool, sweeps
 from tire_pipeline.magic_formula import TireModel
 
@@ -181,6 +188,16 @@ def test_lags_begin_anew_with_every_sweep(run):
         for first in (0, 1000):
             assert out["fy"].iloc[first] == pytest.approx(frame["fy"].iloc[first])
         assert np.abs(out["fy"] - frame["fy"]).max() > 50.0
+
+
+def test_a_sweep_that_is_held_out_has_the_wear_of_its_recording(run):
+    """It had a new tire's, beside other sweeps of the same minutes."""
+    frame, session = run
+    shown, held = frame[frame["piece"] == 0], frame[frame["piece"] == 1]
+    session = replace(session, done=(shown["time"].to_numpy(), friction_work(shown)))
+    worn = put_in(frame, {"wear": -0.1}, session, {"wear": PLAIN})
+    by_itself = put_in(held, {"wear": -0.1}, session, {"wear": PLAIN})
+    np.testing.assert_allclose(by_itself["fy"], worn["fy"][held.index], rtol=1e-3)
 
 
 def test_a_lag_in_distance_is_shorter_at_speed(run):

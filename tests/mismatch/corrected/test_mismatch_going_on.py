@@ -56,6 +56,18 @@ def test_a_recording_by_itself_has_the_state_of_its_time(tire, record, change, b
     np.testing.assert_allclose(alone, within, atol=2.0)
 
 
+def test_after_a_pause_the_tire_counts_as_new(tire, record):
+    """Nobody knows whether it was changed; a new tire is what changes less."""
+    run = record(0)
+    rest = run[run["time"] > 75.0]
+    model = explained_until(75.0, tire, run, (WEAR,))
+    later = rest.assign(time=rest["time"] + 60.0)
+    new = CorrectedModel(tire, (WEAR,), ("fy",), model.reference)
+    np.testing.assert_allclose(model.predict(later)["fy"], new.predict(rest)["fy"], atol=2.0)
+    assert "begin anew" in model.predict(later).attrs["notes"][0]
+    assert "begin anew" not in model.predict(rest).attrs["notes"][0]
+
+
 def test_in_the_recording_that_was_explained_nothing_changes(tire, record):
     run = record(0)
     first = run[run["time"] < 75.0]

@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.states import States
+from tire_pipeline.recordings.check import LONG_GAP
 
 Array = np.ndarray
 
@@ -42,7 +43,10 @@ def going_on(
     own = [i for i, change in enumerate(changes) if goes_with_time(change, data)]
     if not own or rolled is None:
         return None
-    return GoingOn(float(rolled.time[-1]), data.time_line, data.step, data.states.power, confirmed(own))
+    pause = max(float(np.diff(rolled.time).max(initial=0.0)), LONG_GAP * data.sampling)
+    return GoingOn(
+        float(rolled.time[-1]), pause, data.time_line, data.step, data.states.power, confirmed(own)
+    )
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,8 @@ class GoingOn:
     ----------
     last : float
         Time of its last sample, s.
+    pause : float
+        Longest time between two of its samples, at least ``LONG_GAP`` usual ones, s.
     time, step : ndarray, shape (n,)
         Of the samples that were weighed, s.
     power : ndarray, shape (n,), optional
@@ -63,6 +69,7 @@ class GoingOn:
     """
 
     last: float
+    pause: float
     time: Array
     step: Array
     power: Array | None
@@ -71,7 +78,15 @@ class GoingOn:
     def put_into(self, data: Data) -> Data:
         """Return a recording to predict with states that go by the clock of the one that was explained."""
         known = data.states.power is not None and self.power is not None
-        return replace(data, states=_StatesGoingOn(data.simulation, self)) if known else data
+        here = known and data.time is not None and not self.another_session(data)
+        return replace(data, states=_StatesGoingOn(data.simulation, self)) if here else data
+
+    def another_session(self, data: Data) -> bool:
+        """Whether a recording begins after a pause that is longer than any in the one that was explained.
+
+        Nobody knows then whether the tire was changed. It counts as new and cold: that changes less.
+        """
+        return data.time is not None and float(data.time[0]) > self.last + self.pause
 
     def after(self, data: Data) -> Array:
         """Return which samples are after the recording that was explained, bool, shape (n,)."""
@@ -87,10 +102,11 @@ class GoingOn:
         share = float(np.mean(self.after(data)))
         if not titles or not share:
             return []
+        anew = "; wear and heat begin anew, after a longer pause" if self.another_session(data) else ""
         return [
             f"{' and '.join(titles)}: {share:.1%} of the samples are after the recording that was explained; "
             f"nothing goes further there than it was at the end, and {self.part:.0%} of the change is added, "
-            "as far as earlier sweeps predicted later ones"
+            f"as far as earlier sweeps predicted later ones{anew}"
         ]
 
 
