@@ -18,7 +18,7 @@ _INTERVAL_WIDTH = 1.7
 """Standard deviations to each end of the intervals that have to intersect."""
 _AT_SET_POINTS = 0.3
 """Part of second differences that are exactly zero, from which a channel holds its values."""
-_ROUNDING = 2e-6
+_NOISE_OF_ROUNDING = 2e-6
 """Noise over the range of a channel below which it is rounding."""
 _LEVELS_LOWERED, _LEVELS_AROUND = 30, 21
 """A window is no wider than this percentile of the windows of so many samples about it: one sample that
@@ -49,7 +49,7 @@ def denoise(x: Array, start: Array) -> Array:
         window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
     sigma, rho = _noise(x, start)
-    if sigma < 1e-12 or sigma < _ROUNDING * float(np.ptp(x)):
+    if sigma < 1e-12 or sigma < _NOISE_OF_ROUNDING * float(np.ptp(x)):
         return x
     if np.std(x) < _NOISE_ONLY * sigma:
         return np.full_like(x, np.mean(x))
