@@ -6,10 +6,10 @@ from weighed import all_but
 
 from tire_pipeline.mismatch import CorrectedModel, Explainer, explain_mismatch
 from tire_pipeline.mismatch.corrected.going_on import going_on
+from tire_pipeline.mismatch.corrected.later_sweeps import confirmed_later
 from tire_pipeline.mismatch.corrected.wheel_phase import way_at_each
 from tire_pipeline.mismatch.inference.linearised_set import linearised
 from tire_pipeline.mismatch.model.nominal import Reference
-from tire_pipeline.mismatch.proof.later_sweeps import confirmed_later
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 WEAR = ("wear", {"friction": -0.2, "stiffness": 0.0})

@@ -65,7 +65,7 @@ class GoingOn:
         Friction power there, W; None if it is not known.
     part : float
         Part of the change that is added after it, as far as earlier sweeps predicted later ones
-        (:func:`.proof.later_sweeps.confirmed_later`).
+        (:func:`.corrected.later_sweeps.confirmed_later`).
     """
 
     last: float

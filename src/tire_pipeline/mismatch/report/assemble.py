@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.going_on import going_on
+from tire_pipeline.mismatch.corrected.later_sweeps import confirmed_later
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay, way_at_each
 from tire_pipeline.mismatch.effects import catalogue
@@ -25,7 +26,6 @@ from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.held_out import made_worse, prove, prove_moments, recorded_moments
-from tire_pipeline.mismatch.proof.later_sweeps import confirmed_later
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
