@@ -1,4 +1,4 @@
-"""Files of unknown folders: whether there is one, and opening it without ever waiting; regular ones only."""
+"""Files of unknown folders: whether there is one, what it is, and opening it if regular, without a wait."""
 
 from __future__ import annotations
 
@@ -20,6 +20,28 @@ _OTHER_KINDS = {
     stat.S_IFBLK: "a device",
     stat.S_IFDIR: A_FOLDER,
 }
+
+
+_PACKED = {
+    b"PK\x03\x04": "a ZIP archive",
+    b"7z\xbc\xaf": "a 7z archive",
+    b"Rar!": "a RAR archive",
+    b"\x1f\x8b": "compressed by gzip",
+    b"BZh": "compressed by bzip2",
+    b"\xfd7zXZ\x00": "compressed by xz",
+    b"\x28\xb5\x2f\xfd": "compressed by zstd",
+}
+
+
+def kind_of_archive(head: bytes) -> str:
+    """What kind of archive or compressed file begins like this; empty if none does.
+
+    Examples
+    --------
+    >>> kind_of_archive(b"PK\\x03\\x04..."), kind_of_archive(b"[MDI_HEADER]")
+    ('a ZIP archive', '')
+    """
+    return next((kind for beginning, kind in _PACKED.items() if head.startswith(beginning)), "")
 
 
 class NotRegularError(OSError):

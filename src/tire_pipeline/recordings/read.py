@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.files.packed import kind_of_archive
-from tire_pipeline.files.regular_file import no_regular_file
+from tire_pipeline.files.regular_file import kind_of_archive, no_regular_file
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
 from tire_pipeline.recordings.readers.csv_file import read_csv

@@ -131,7 +131,7 @@ def test_a_step_in_the_last_fifth_is_confirmed_by_nothing_that_follows(worn):
 
 
 def test_friction_that_falls_for_a_while_is_not_carried_on(tire, record):
-    """A cause without a name that acts near the end is a step of the surface to the catalogue."""
+    """Near the end of a recording, a cause that has no name is taken for a changed surface."""
     run = record(4)
     grip = np.where((run["time"] > 100.0) & (run["time"] < 120.0), 0.75, 1.0)
     shown = record(4, friction=grip)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Generic
+from typing import Any, ClassVar, Generic
+
+from kedro.io.core import Version
 
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.sealed import made_again
@@ -16,7 +18,31 @@ class SealedBesideDataset(VersionedDataset[Kept], Generic[Kept]):
 
     The hash is written first: a version without its file is none. A file without a hash is of a former
     version of this project, or has no versions because it is not written by a run; it is read as it is.
+
+    Parameters
+    ----------
+    filepath : str
+        Local path or address of an object.
+    version : kedro.io.Version, optional
+        Given by the catalog when ``versioned: true``.
+    save_args : dict, optional
+        Over ``DEFAULT_SAVE_ARGS``, for what writes the format.
+    metadata : dict, optional
+        For kedro-viz.
     """
+
+    DEFAULT_SAVE_ARGS: ClassVar[dict[str, Any]] = {}
+
+    def __init__(
+        self,
+        *,
+        filepath: str,
+        version: Version | None = None,
+        save_args: dict[str, Any] | None = None,
+        metadata: dict[str, Any] | None = None,
+    ) -> None:
+        super().__init__(filepath=filepath, version=version, metadata=metadata)
+        self._save_args = {**self.DEFAULT_SAVE_ARGS, **(save_args or {})}
 
     def _write_sealed(self, content: bytes) -> None:
         files, name = self._files(self._get_save_path())

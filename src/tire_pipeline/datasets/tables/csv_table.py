@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, ClassVar
 
 import pandas as pd
-from kedro.io.core import Version
 from kedro_datasets._typing import TablePreview
 
 from tire_pipeline.datasets.storage.sealed_beside import SealedBesideDataset
@@ -36,16 +35,7 @@ class CsvTableDataset(SealedBesideDataset[pd.DataFrame]):
         On loading: the file is not what was stored.
     """
 
-    def __init__(
-        self,
-        *,
-        filepath: str,
-        version: Version | None = None,
-        save_args: dict[str, Any] | None = None,
-        metadata: dict[str, Any] | None = None,
-    ) -> None:
-        super().__init__(filepath=filepath, version=version, metadata=metadata)
-        self._save_args = {"index": False, **(save_args or {})}
+    DEFAULT_SAVE_ARGS: ClassVar[dict[str, Any]] = {"index": False}
 
     def load(self) -> pd.DataFrame:
         """The table as it was saved."""

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
-from kedro.io.core import Version, get_filepath_str
+from kedro.io.core import get_filepath_str
 from kedro_datasets._typing import JSONPreview
 from kedro_datasets.json import JSONDataset
 
@@ -34,16 +34,7 @@ class JsonFileDataset(SealedBesideDataset[Any]):
         On loading: the file is not what was stored.
     """
 
-    def __init__(
-        self,
-        *,
-        filepath: str,
-        version: Version | None = None,
-        save_args: dict[str, Any] | None = None,
-        metadata: dict[str, Any] | None = None,
-    ) -> None:
-        super().__init__(filepath=filepath, version=version, metadata=metadata)
-        self._save_args = {"indent": 2, **(save_args or {})}
+    DEFAULT_SAVE_ARGS: ClassVar[dict[str, Any]] = {"indent": 2}
 
     def load(self) -> Any:
         """What was saved."""

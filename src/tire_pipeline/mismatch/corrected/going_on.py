@@ -10,10 +10,9 @@ import numpy as np
 
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
-from tire_pipeline.mismatch.model.states import States
+from tire_pipeline.mismatch.model.states import States, followed_from_cold
 from tire_pipeline.recordings.check import LONG_GAP
 
 Array = np.ndarray
@@ -77,9 +76,9 @@ class GoingOn:
 
     def put_into(self, data: Data) -> Data:
         """Return a recording to predict with states that go by the clock of the one that was explained."""
-        known = data.states.power is not None and self.power is not None
-        here = known and data.time is not None and not self.another_session(data)
-        return replace(data, states=_StatesGoingOn(data.simulation, self)) if here else data
+        if data.states.power is None or self.power is None or self.another_session(data):
+            return data
+        return replace(data, states=_StatesGoingOn(data.simulation, self))
 
     def another_session(self, data: Data) -> bool:
         """Whether a recording begins after a pause that is longer than any in the one that was explained.
@@ -92,9 +91,16 @@ class GoingOn:
         """Return which samples are after the recording that was explained, bool, shape (n,)."""
         return np.zeros(data.size, bool) if data.time is None else data.time > self.last
 
-    def part_at(self, data: Data) -> Array:
-        """Return the part that is added at each sample, shape (n,)."""
-        return np.where(self.after(data), self.part, 1.0)
+    def added(
+        self, data: Data, changes: Sequence[Change], add: Callable[[Sequence[Change]], dict[str, Array]]
+    ) -> dict[str, Array]:
+        """Return forces with effects that ``add`` adds in full; after the recording those of time in part."""
+        whole, after = add(changes), self.after(data)
+        lasting = [change for change in changes if not goes_with_time(change, data)]
+        if len(lasting) == len(changes) or not after.any():
+            return whole
+        rest, part = add(lasting), np.where(after, self.part, 1.0)
+        return {name: rest[name] + part * (force - rest[name]) for name, force in whole.items()}
 
     def note(self, data: Data, changes: Sequence[Change]) -> list[str]:
         """Say what is added after the recording that was explained, if there is anything."""
@@ -142,18 +148,11 @@ class _StatesGoingOn(States):
         before, step = self._power_before, self._recording.step.copy()
         if before.size:
             step[0] = self._recording.time_line[0] - self.so_far.time[self._earlier][-1]
-        own = _followed(
+        own = followed_from_cold(
             np.concatenate([before, self._known_power]),
             np.concatenate([self.so_far.step[self._earlier], step]),
             lag,
         )[before.size :]
         assert self.so_far.power is not None
-        most = float(_followed(self.so_far.power, self.so_far.step, lag).max())
+        most = float(followed_from_cold(self.so_far.power, self.so_far.step, lag).max())
         return np.minimum(own, most) * np.hypot(1.0, lag / self.scales.time_span) / self.scales.power
-
-
-def _followed(power: Array, step: Array, lag: float) -> Array:
-    """Return a power from a cold start, followed with a lag of first order."""
-    power, first = power.copy(), np.zeros(power.size, bool)
-    power[0], first[0] = 0.0, True
-    return np.asarray(first_order(power, 1.0 - np.exp(-step / max(lag, 1e-9)), first))

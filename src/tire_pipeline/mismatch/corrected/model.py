@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pandas as pd
 from tire_pipeline.channels import ALIGNING_MOMENT, INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
-from tire_pipeline.mismatch.corrected.going_on import GoingOn, goes_with_time
+from tire_pipeline.mismatch.corrected.going_on import GoingOn
 from tire_pipeline.mismatch.corrected.holes import around_holes
 from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
@@ -198,12 +199,11 @@ class CorrectedModel:
 
     def _simulated(self, data: Data, changes: Sequence[Change]) -> dict[str, Array]:
         """Return forces, N, and moments, N m, with effects added, as far as they go on."""
-        lasting = [change for change in changes if not goes_with_time(change, data)]
-        if self.going_on is not None and len(lasting) < len(changes) and self.going_on.after(data).any():
-            alone = replace(self, going_on=None)
-            rest, whole = (alone._simulated(data, each) for each in (lasting, changes))
-            part = self.going_on.part_at(data)
-            return {name: rest[name] + part * (force - rest[name]) for name, force in whole.items()}
+        add = partial(self._with, data)
+        return add(changes) if self.going_on is None else self.going_on.added(data, changes, add)
+
+    def _with(self, data: Data, changes: Sequence[Change]) -> dict[str, Array]:
+        """Return forces, N, and moments, N m, with effects added in full."""
         forces = simulate(data, changes)
         moved = tuple(name for name in self.moments if name not in self.as_filed)
         for names, added in ((moved, changes), (self.as_filed, ())):

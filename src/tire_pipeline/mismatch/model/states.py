@@ -15,6 +15,13 @@ from tire_pipeline.mismatch.model.simulated import BaseSimulation
 Array = np.ndarray
 
 
+def followed_from_cold(power: Array, step: Array, lag: float) -> Array:
+    """Return a power, shape (n,), followed with a lag of first order, s, from a cold start; ``step`` in s."""
+    power, first = power.copy(), np.zeros(power.size, bool)
+    power[0], first[0] = 0.0, True
+    return np.asarray(first_order(power, 1.0 - np.exp(-step / max(lag, 1e-9)), first))
+
+
 @dataclass(frozen=True, eq=False)
 class States:
     """What builds up while the tire rolls, from the model's own forces.
@@ -91,11 +98,7 @@ class States:
         Times ``(1 + (lag / duration)^2)^0.5``: with a lag much longer than the recording it is friction work,
         of order one.
         """
-        first = np.zeros(self._recording.size, bool)
-        first[0] = True
-        power = self._known_power.copy()
-        power[0] = 0.0
-        heat = first_order(power, 1.0 - np.exp(-self._recording.step / max(lag, 1e-9)), first)
+        heat = followed_from_cold(self._known_power, self._recording.step, lag)
         return heat * np.hypot(1.0, lag / self.scales.time_span) / self.scales.power
 
 

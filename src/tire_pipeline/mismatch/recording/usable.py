@@ -227,14 +227,18 @@ def in_another_unit(tire: Any, arrays: Mapping[str, Array]) -> Question | None:
         Channels, other signs and units repaired.
     """
     names = ["normal_load", *(n for n in TANGENTIAL_FORCES if n in arrays)]
+    factors = {1.0 / base: units for base, units in FORCE_FACTORS.items()}
+    factors |= {base: units[::-1] for base, units in FORCE_FACTORS.items()}
+    load = arrays["normal_load"]
+    possible = [factor for factor in factors if _at_its_loads(tire, load * factor, load)]
+    if not possible:
+        return None
     simulate = partial(forces_at, tire)
     plain, best = simulate(arrays), (0.0, 1.0, "", "")
-    for base, units in FORCE_FACTORS.items():
-        for factor, (of, taken_for) in ((1.0 / base, units), (base, units[::-1])):
-            if _at_its_loads(tire, arrays["normal_load"] * factor, arrays["normal_load"]):
-                before, after = unexplained(arrays, simulate, dict.fromkeys(names, factor), plain)
-                if before > MOST_LEFT**2 > after and after < min(best[1], _FAR_BETTER * before):
-                    best = (before, after, of, taken_for)
+    for factor in possible:
+        before, after = unexplained(arrays, simulate, dict.fromkeys(names, factor), plain)
+        if before > MOST_LEFT**2 > after and after < min(best[1], _FAR_BETTER * before):
+            best = (before, after, *factors[factor])
     before, after, of, taken_for = best
     if not of:
         return None

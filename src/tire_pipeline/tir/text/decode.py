@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from tire_pipeline.errors import TirError, TirSyntaxError
-from tire_pipeline.files.regular_file import NotRegularError, open_regular
+from tire_pipeline.files.regular_file import NotRegularError, kind_of_archive, open_regular
 
 MOST_FILE_BYTES = 5_000_000
 """A larger file is refused: real ones have 2 to 60 kB."""
@@ -99,8 +99,6 @@ def _looks_binary(data: bytes) -> bool:
 
 
 def _binary(path: str | None, data: bytes = b"") -> TirSyntaxError:
-    from tire_pipeline.files.packed import kind_of_archive  # loads pandas, which no .tir file needs
-
     if archive := kind_of_archive(data):
         return TirSyntaxError(
             f"is no tire property file: it is {archive}", path=path, todo="unpack it, and give the .tir file"

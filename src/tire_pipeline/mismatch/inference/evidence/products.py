@@ -207,25 +207,16 @@ class RecordingProducts:
     def _with_unnamed(self, columns: Mapping[str, Array], before: int) -> ColumnProducts:
         """Return products of some columns with those of unnamed forms put in before one of them.
 
-        The unnamed forms are the same beside every set: their own products are made once. And what is nothing
-        in a force, as a form error of the other force is, has none.
+        The unnamed forms are the same beside every set: their own products are made once.
         """
-        own, nuisance = {}, {}
+        own, nuisance, alone = {}, {}, self.of(columns)
         for o, x in columns.items():
-            scaled = x[self.rows] / self.largest[o]
             forms, forms_own, forms_nuisance = self._unnamed_products[o]
-            live = np.flatnonzero(scaled.any(axis=0))
-            count, more = scaled.shape[1], forms.shape[1]
-            scaled = scaled[:, live]
-            at = np.where(live < before, live, live + more)
-            there = np.r_[at, np.arange(before, before + more)]
-            both = scaled.T @ forms / len(scaled)
-            own[o] = np.zeros((count + more, count + more))
-            own[o][np.ix_(there, there)] = np.block(
-                [[scaled.T @ scaled / len(scaled), both], [both.T, forms_own]]
-            )
-            nuisance[o] = np.zeros((self._beside[o].shape[1], count + more))
-            nuisance[o][:, there] = np.hstack([self._beside[o].T @ scaled / len(scaled), forms_nuisance])
+            both = (x[self.rows] / self.largest[o]).T @ forms / len(forms)
+            count = x.shape[1]
+            order = np.r_[:before, count : count + forms.shape[1], before:count]
+            own[o] = np.block([[alone.own[o], both], [both.T, forms_own]])[np.ix_(order, order)]
+            nuisance[o] = np.hstack([alone.nuisance[o], forms_nuisance])[:, order]
         return ColumnProducts(own, nuisance)
 
     @cached_property
