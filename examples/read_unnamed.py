@@ -57,15 +57,15 @@ def _value(text, table, clock):
 
 
 def _added(entry, table):
-    known = re.fullmatch("unnamed physics [123]", entry["format"]) and not {*entry["equation"]} - {*_OF}
-    size = len(next(iter(table.values()))) if known else sys.exit("no format")
-    usual = median(steps := [b - a for a, b in pairwise(table.get("time", [math.nan] * size))])
-    starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]
-    steps = [0.0 if start else d for start, d in zip(starts, [0.0, *steps], strict=True)]
-    ways = [d * abs(v) for d, v in zip(steps, table.get("speed", [math.nan] * size), strict=True)]
-    table = {n: [float(v)] * size for n, v in entry["nominal"].items()} | {"way": [*accumulate(ways)]} | table
-    clock = list(zip(steps, ways, starts, strict=True)) if "time" in table else [()] * size
-    out = {o: _value(text, table, clock) for o, text in entry["equation"].items()}
+    known = re.match(r"unnamed physics (4|[123](?!.*\bway\b)) ", "{format} {equation}".format(**entry))
+    none = [math.nan] * (size := len(next(iter(table.values()))) if known else sys.exit("no format"))
+    usual, v = median(gaps := [b - a for a, b in pairwise(table.get("time", none))]), table.get("speed", none)
+    steps = [0.0, *(d if 0.0 < d <= 3.5 * usual else 0.0 for d in gaps)]
+    ways = [d * abs(a) for d, a in zip(steps, v, strict=True)]
+    rolled = accumulate(0.5 * d * (abs(a) + abs(b)) for d, (a, b) in zip(gaps, pairwise(v), strict=True))
+    table = {n: [float(v)] * size for n, v in entry["nominal"].items()} | {"way": [0.0, *rolled]} | table
+    clock = [(d, w, not d) for d, w in zip(steps, ways, strict=True)] if "time" in table else [()] * size
+    out = {o: _value(entry["equation"][o], table, clock) for o in sorted(entry["equation"], key=_OF.index)}
     for symbol, (low, high) in entry["range"].items():
         width = max(entry["fade"][symbol] * (high - low), 1e-12)
         fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in _value(symbol, table, clock)]

@@ -6,8 +6,10 @@ from weighed import all_but
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import CorrectedModel, explain_mismatch
+from tire_pipeline.mismatch.corrected.going_on import going_on
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay, way_at_each
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.wheel import way_rolled
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 
@@ -31,6 +33,26 @@ def test_a_wave_is_added_in_the_recording_that_was_explained_and_left_out_of_ano
     assert "angle of the wheel" in elsewhere.attrs["notes"][0]
     with pytest.raises(RecordingError, match="nonuniformity needs the channel speed"):
         corrected.predict(recording.drop(columns="speed"))
+
+
+@pytest.mark.parametrize("part", [1.0, 0.4])
+def test_a_wave_goes_on_in_what_follows_at_once(tire, record, part):
+    """The wheel rolls on; so much is added as earlier sweeps predicted of later ones."""
+    run = record(0)
+    first, rest = run[run["time"] < 75.0], run[run["time"] >= 75.0]
+    data = prepare(tire, first).data
+    radius = 0.97 * data.nominal.radius
+    wave = {**catalogue()["nonuniformity"].zeros(data), "cosine_y": 200.0, "radius": radius}
+    changes = (("nonuniformity", wave),)
+    rolled = WheelWay(data.time, first["normal_load"].to_numpy(), data.wheel.way)
+    goes = going_on(data, changes, rolled, lambda own: part)
+    corrected = CorrectedModel(tire, changes, ("fy",), rolled=rolled, going_on=goes)
+    predicted = corrected.predict(rest)
+    added = (predicted["fy"] - corrected.as_it_came.predict(rest)["fy"]).to_numpy()
+    way = way_rolled(run["speed"].to_numpy(), run["time"].to_numpy())[run["time"] >= 75.0]
+    np.testing.assert_allclose(added, part * 200.0 * np.cos(way / radius), atol=10.0)
+    assert f"{part:.0%} of the change is added" in predicted.attrs["notes"][0]
+    assert "nothing goes further" not in predicted.attrs["notes"][0]
 
 
 @pytest.mark.parametrize("rate", [25.0, 200.0])

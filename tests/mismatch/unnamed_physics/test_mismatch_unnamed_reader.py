@@ -71,7 +71,12 @@ def test_a_reader_without_our_code_gives_the_same_force(text, ranges, tmp_path):
             "+".join(["fy"] * 2000),
         )
     ]
-    + [{"equation": {"mx": "fy"}}, {"format": "other"}, {"range": {"v": [float("nan"), 1.0]}}],
+    + [
+        {"equation": {"mx": "fy"}},
+        {"format": "other"},
+        {"format": "unnamed physics 3", "equation": {"fy": "fy*sin(way)"}},
+        {"range": {"v": [float("nan"), 1.0]}},
+    ],
 )
 def test_the_reader_refuses_what_is_not_of_the_grammar_or_not_finite(change, tmp_path):
     found = as_read({**physics("0.1*fy*v").to_sidecar(), **change}, tmp_path)

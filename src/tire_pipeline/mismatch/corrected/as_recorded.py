@@ -176,7 +176,7 @@ def never_worse(
     if found.physics is None:
         return found, corrected
     cleaned = corrected.cleaned if corrected.changes else {}
-    put_in = replace(corrected, unnamed=found.physics, cleaned=cleaned)
+    put_in = replace(corrected, unnamed=found.physics, unnamed_later=found.later, cleaned=cleaned)
     with_it, without = put_in.predict(recording), corrected.predict(recording)
     for o in found.physics.equations:
         if rms(recording[o] - with_it[o]) >= rms(recording[o] - without[o]):

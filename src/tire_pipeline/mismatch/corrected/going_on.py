@@ -1,4 +1,4 @@
-"""What goes with time, after the recording that was explained: one clock, and states that stay at its end."""
+"""What goes with time or turns with the wheel, after the recording that was explained: one clock."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.states import States, followed_from_cold
-from tire_pipeline.recordings.check import LONG_GAP
 
 Array = np.ndarray
 
@@ -24,10 +23,15 @@ def goes_with_time(change: Change, data: Data) -> bool:
     return effect.family == "slow" and data.measured.isdisjoint(effect.drivers(""))
 
 
+def turns(change: Change) -> bool:
+    """Whether an effect comes back once a turn: where the wheel stands is known as long as it rolls on."""
+    return catalogue()[change[0]].quarter_turn(change[1]) is not None
+
+
 def going_on(
     data: Data, changes: Sequence[Change], rolled: WheelWay | None, confirmed: Callable[[list[int]], float]
 ) -> GoingOn | None:
-    """Return how effects go on after a recording; None if none of them goes with time.
+    """Return how effects go on after a recording; None if none of them goes with time or turns.
 
     Parameters
     ----------
@@ -37,20 +41,18 @@ def going_on(
     rolled : WheelWay, optional
         Whose times are those of the recorded rows.
     confirmed : callable
-        Which of the effects go with time, by number -> the part that is added.
+        Which of the effects go with time or turn, by number -> the part that is added.
     """
-    own = [i for i, change in enumerate(changes) if goes_with_time(change, data)]
+    own = [i for i, change in enumerate(changes) if goes_with_time(change, data) or turns(change)]
     if not own or rolled is None:
         return None
-    pause = max(float(np.diff(rolled.time).max(initial=0.0)), LONG_GAP * data.sampling)
-    return GoingOn(
-        float(rolled.time[-1]), pause, data.time_line, data.step, data.states.power, confirmed(own)
-    )
+    last, pause, states = float(rolled.time[-1]), rolled.longest_pause, data.states
+    return GoingOn(last, pause, data.time_line, data.step, states.power, confirmed(own))
 
 
 @dataclass(frozen=True)
 class GoingOn:
-    """How what goes with time goes on from the recording that was explained.
+    """How what goes with time, or turns, goes on from the recording that was explained.
 
     Parameters
     ----------
@@ -94,9 +96,9 @@ class GoingOn:
     def added(
         self, data: Data, changes: Sequence[Change], add: Callable[[Sequence[Change]], dict[str, Array]]
     ) -> dict[str, Array]:
-        """Return forces with effects that ``add`` adds in full; after the recording those of time in part."""
+        """Return forces with effects that ``add`` adds in full; after it those of time and turns in part."""
         whole, after = add(changes), self.after(data)
-        lasting = [change for change in changes if not goes_with_time(change, data)]
+        lasting = [change for change in changes if not (goes_with_time(change, data) or turns(change))]
         if len(lasting) == len(changes) or not after.any():
             return whole
         rest, part = add(lasting), np.where(after, self.part, 1.0)
@@ -104,16 +106,22 @@ class GoingOn:
 
     def note(self, data: Data, changes: Sequence[Change]) -> list[str]:
         """Say what is added after the recording that was explained, if there is anything."""
-        titles = [catalogue()[change[0]].title for change in changes if goes_with_time(change, data)]
-        share = float(np.mean(self.after(data)))
-        if not titles or not share:
-            return []
+        share, notes = float(np.mean(self.after(data))), []
         anew = "; wear and heat begin anew, after a longer pause" if self.another_session(data) else ""
-        return [
-            f"{' and '.join(titles)}: {share:.1%} of the samples are after the recording that was explained; "
-            f"nothing goes further there than it was at the end, and {self.part:.0%} of the change is added, "
-            f"as far as earlier sweeps predicted later ones{anew}"
-        ]
+        of_time = [change for change in changes if goes_with_time(change, data)]
+        turning = [change for change in changes if turns(change)]
+        for these, so in (
+            (of_time, "nothing goes further there than it was at the end, and "),
+            (turning, ""),
+        ):
+            if these and share:
+                titles = " and ".join(catalogue()[name].title for name, _ in these)
+                notes.append(
+                    f"{titles}: {share:.1%} of the samples are after the recording that was explained; {so}"
+                    f"{self.part:.0%} of the change is added, as far as earlier sweeps predicted later ones"
+                    f"{'' if these is turning else anew}"
+                )
+        return notes
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What earlier sweeps say of later ones: whether a cause that goes with time holds after the recording."""
+"""What earlier sweeps say of later ones: whether what goes with time, or turns, holds after the recording."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ Array = np.ndarray
 
 
 def confirmed_later(analysis: Analysis, fit: Fit, own: Collection[int]) -> float:
-    """Return the part of what goes with time that later sweeps confirm, 0 to 1.
+    """Return the part of what goes with time, or turns, that later sweeps confirm, 0 to 1.
 
     Between sweeps of other times the state at a sweep is known from its neighbours, whatever the true cause.
     After the recording nothing is left to its later side. So each fifth of the sweeps is predicted with
     parameters by those before it. The other effects stay as all sweeps have them. What earlier sweeps do not
-    predict, such as a step in the last fifth, is not confirmed.
+    predict, such as a step in the last fifth, or a turn whose angle slips away, is not confirmed.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def confirmed_later(analysis: Analysis, fit: Fit, own: Collection[int]) -> float
     fit : Fit
         The effects that are added.
     own : collection of int
-        Those of them, by number, that go with time.
+        Those of them, by number, that go with time or turn.
     """
     data, count = analysis.data, analysis.system.count
     fold = np.arange(count) * FOLDS // count

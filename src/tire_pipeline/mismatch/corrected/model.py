@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import ALIGNING_MOMENT, INPUT_CHANNELS, SLIP_AND_LOAD
+from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.equation import put_equation
 from tire_pipeline.mismatch.corrected.going_on import GoingOn
 from tire_pipeline.mismatch.corrected.holes import around_holes
 from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
@@ -33,7 +34,6 @@ from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
-from tire_pipeline.mismatch.unnamed_physics.language.symbols import table_of
 
 Array = np.ndarray
 
@@ -71,6 +71,8 @@ class CorrectedModel:
         In the recording that was explained alone, whose forces show that it is noise.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
+    unnamed_later : float
+        Part of it that is added after the recording that was explained, if it goes with the way rolled.
     instead : tuple of (odds, changes)
         Other explanations that the recording cannot tell from ``changes``, and how likely they are beside
         these: ``predict`` adds what they agree on (:func:`.agreed`).
@@ -118,6 +120,7 @@ class CorrectedModel:
     question: Question | None = None
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
+    unnamed_later: float = 1.0
     instead: tuple[tuple[float, tuple[Change, ...]], ...] = ()
     part: float = 1.0
     rolled: WheelWay | None = None
@@ -186,7 +189,7 @@ class CorrectedModel:
             whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
             forces = {name: partly(start, whole[name], self.part) for name, start in plain.items()}
         going_on = [] if self.going_on is None else self.going_on.note(data, self.changes)
-        notes = [*self._of_unknown_phase(data), *going_on, *self._put_unnamed(data, forces)]
+        notes = [*self._of_unknown_phase(data), *going_on, *self._put_equation(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
@@ -210,6 +213,13 @@ class CorrectedModel:
             forces |= simulate_moments(data, added, names) if names else {}
         return forces
 
+    def _put_equation(self, data: Data, forces: dict[str, Array]) -> list[str]:
+        """Add the unnamed equation to the forces, and say where it fades."""
+        if self.unnamed is None:
+            return []
+        last = np.inf if self.rolled is None else float(self.rolled.time[-1])
+        return put_equation(self.unnamed, data, self.changes, forces, last, self.unnamed_later)
+
     def _of_unknown_phase(self, data: Data) -> list[str]:
         """Say which effects are left out because the angle of the wheel is unknown."""
         if data.wheel.known_way is None:
@@ -217,39 +227,11 @@ class CorrectedModel:
         unknown = float(np.mean(np.isnan(data.wheel.known_way)))
         turning = [e.title for n, p in self.changes if (e := catalogue()[n]).quarter_turn(p) is not None]
         return [
-            f"{title}: left out at {unknown:.1%} of the samples, which are not of the recording that was "
-            "explained: the angle of the wheel is not known there"
+            f"{title}: left out at {unknown:.1%} of the samples, which neither are of the recording that was "
+            "explained nor follow it at once: the angle of the wheel is not known there"
             for title in turning
             if unknown
         ]
-
-    def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
-        """Add the unnamed equation to the forces, and say where it fades."""
-        if self.unnamed is None:
-            return []
-        for channel in self.unnamed.channels:
-            if channel not in data.channels and not (channel == "time" and data.time is not None):
-                raise RecordingError(
-                    f"{self.unnamed.title} needs the channel {channel}", where=channel, todo="add the column"
-                )
-        moments = (ALIGNING_MOMENT,) if self.unnamed.of_moment else ()
-        table, _ = table_of(data, self.changes, self.unnamed.nominal, moments)
-        own = np.ones(data.size, bool)
-        if self.unnamed.of_one_recording and data.wheel.known_way is not None:
-            own = np.isfinite(data.wheel.known_way)
-        for name, change in self.unnamed.change(table).items():
-            if name in forces:
-                forces[name] = forces[name] + np.where(own, change, 0.0)
-        title, notes = self.unnamed.title, []
-        if not own.all():
-            notes.append(
-                f"{title}: left out at {np.mean(~own):.1%} of the samples, which are not of the recording "
-                "that was explained: it goes with that one's clock, or the way rolled since its start"
-            )
-        faded = float(np.mean(own & (self.unnamed.weight(table) < 1.0)))
-        if faded:
-            notes.append(f"{title}: faded outside of its range at {faded:.1%} of the samples")
-        return notes
 
     def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
         """Return the model, cleaned or not, whichever predicts the recording that was explained better.
@@ -309,10 +291,12 @@ class CorrectedModel:
             channels.setdefault(name, np.zeros(n))
         way = None
         if self.rolled is not None and time is not None:
-            way = self.rolled.at(time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan))
-        if way is not None and self._changed:
-            for name in self.cleaned:
-                channels[name] = np.where(np.isnan(way), channels[name], denoise(channels[name], start))
+            at = time, recording["normal_load"].to_numpy(dtype=float, na_value=np.nan)
+            way = self.rolled.at(*at, channels.get("speed"))
+            for name in self.cleaned if self._changed else {}:
+                channels[name] = np.where(
+                    self.rolled.own(*at), denoise(channels[name], start), channels[name]
+                )
         beside = None
         if self.stands_in:
             needed = [f"simulated_{o}" for o in self.outputs]

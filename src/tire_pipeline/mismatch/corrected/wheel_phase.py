@@ -1,11 +1,14 @@
-"""Samples of the recording that was explained: its clock and its wheel's angle are known nowhere else."""
+"""How far the wheel has rolled: known in the recording that was explained, and in what follows at once."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy
+
+from tire_pipeline.recordings.check import LONG_GAP
 
 Array = np.ndarray
 
@@ -26,15 +29,45 @@ class WheelWay:
     load: Array
     way: Array
 
-    def at(self, time: Array, load: Array) -> Array:
-        """Return how far the wheel had rolled, m, shape as ``time``; NaN in samples of another recording.
+    @cached_property
+    def longest_pause(self) -> float:
+        """Longest time between two samples of the recording, at least ``LONG_GAP`` usual ones, s."""
+        steps = np.diff(self.time)
+        return float(max(steps.max(), LONG_GAP * np.median(steps))) if steps.size else 0.0
 
-        A sample is of this recording if it has a sample of the same time and load. In another one the
-        wheel's angle is unknown, and what repeats once a turn would be added at a wrong angle.
+    def own(self, time: Array, load: Array) -> Array:
+        """Return which samples are of this recording, which has their time and load; bool, shape (n,)."""
+        near = self._near(time)
+        return np.asarray((self.time[near] == time) & (self.load[near] == load))
+
+    def at(self, time: Array, load: Array, speed: Array | None = None) -> Array:
+        """Return how far the wheel had rolled, m, shape as ``time``; NaN where nobody knows.
+
+        It is known in samples of this recording. It is known in those that follow it, too, as far as no pause
+        is longer than those of the recording: the wheel rolls on. Elsewhere its angle is unknown, and what
+        repeats once a turn would be added at a wrong angle.
+
+        Parameters
+        ----------
+        time, load : ndarray, shape (n,)
+            s, N.
+        speed : ndarray, shape (n,), optional
+            m/s. What follows is unknown without it.
         """
-        near = np.clip(np.searchsorted(self.time, time), 0, self.time.size - 1)
-        own = (self.time[near] == time) & (self.load[near] == load)
-        return np.where(own, self.way[near], np.nan)
+        way = np.where(self.own(time, load), self.way[self._near(time)], np.nan)
+        after = np.flatnonzero(time > self.time[-1])
+        if speed is None or not after.size:
+            return way
+        steps = np.diff(time[after], prepend=self.time[-1])
+        breaks = ~((steps > 0.0) & (steps <= self.longest_pause))
+        follows = after[: int(np.argmax(breaks)) if breaks.any() else after.size]
+        fast = np.abs(speed[follows])
+        mean = 0.5 * (fast + np.r_[fast[:1], fast[:-1]])
+        way[follows] = self.way[-1] + np.cumsum(mean * steps[: follows.size])
+        return way
+
+    def _near(self, time: Array) -> Array:
+        return np.clip(np.searchsorted(self.time, time), 0, self.time.size - 1)
 
 
 def way_at_each(time: Array, load: Array, stamps: Array, way: Array) -> WheelWay:

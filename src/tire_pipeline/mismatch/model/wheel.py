@@ -41,10 +41,7 @@ class Wheel:
         """Distance that the wheel rolled, m: in a pause it rolls on at the speed around it."""
         if self.known_way is not None:
             return self.known_way
-        speed = np.abs(self._recording.get("speed"))
-        way = np.zeros(self._recording.size)
-        way[1:] = np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(self._recording.time_line))
-        return way
+        return way_rolled(self._recording.get("speed"), self._recording.time_line)
 
     @cached_property
     def turns_resolved(self) -> bool:
@@ -110,6 +107,18 @@ class Wheel:
         step /= half
         power = _power(signals, way, middle - half * step, step, 2 * half + 1)
         return 1.0 / (middle + (_top(power) - half) * step)
+
+
+def way_rolled(speed: Array, time: Array) -> Array:
+    """Return how far a wheel rolled since the first sample, m, at the mean speed of each two neighbours.
+
+    Parameters
+    ----------
+    speed, time : ndarray, shape (n,)
+        m/s, s.
+    """
+    fast = np.abs(speed)
+    return np.concatenate([[0.0], np.cumsum(0.5 * (fast[1:] + fast[:-1]) * np.diff(time))])
 
 
 def _power(signals: list[Array], way: Array, first: float, step: float, count: int) -> Array:

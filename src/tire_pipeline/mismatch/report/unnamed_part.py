@@ -148,7 +148,9 @@ def put_in_equations(
         return found, put_in
     of_moment, with_moment = never_worse(of_moment, model, recording)
     both = found.joined(of_moment)
-    return both, with_moment if found.physics is None else replace(put_in, unnamed=both.physics)
+    if found.physics is None:
+        return both, with_moment
+    return both, replace(put_in, unnamed=both.physics, unnamed_later=both.later)
 
 
 def _equation_of_moment(

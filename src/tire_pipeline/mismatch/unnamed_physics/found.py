@@ -23,9 +23,10 @@ from tire_pipeline.mismatch.unnamed_physics.language.symbols import (
 )
 
 Array = np.ndarray
-FORMAT = "unnamed physics 3"
-READABLE_FORMATS = ("unnamed physics 1", "unnamed physics 2", FORMAT)
-"""Formats that are read: in the first one each range is of one symbol, and the second one has no moments."""
+FORMAT = "unnamed physics 4"
+READABLE_FORMATS = ("unnamed physics 1", "unnamed physics 2", "unnamed physics 3", FORMAT)
+"""Formats that are read: in the first one each range is of one symbol, and the second one has no moments. The
+first three summed up the way otherwise, so no equation in it is read from them."""
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
 since what turns with the way has another phase in another recording."""
@@ -83,7 +84,7 @@ class UnnamedPhysics:
     @property
     def channels(self) -> tuple[str, ...]:
         """Channels without which it cannot be added."""
-        used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
+        used = self._used
         needed = {CHANNEL[s] for s in used | self._of_ranges if s in CHANNEL}
         needed |= {"time", "speed"} & ({"time", "speed"} if "way" in used or self._by_way else set())
         return tuple(sorted(needed | ({"time"} if self._remembers else set())))
@@ -92,6 +93,10 @@ class UnnamedPhysics:
     def of_moment(self) -> bool:
         """Whether it needs or changes the model's aligning moment."""
         return ALIGNING_MOMENT in self.equations
+
+    @property
+    def _used(self) -> frozenset[str]:
+        return frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
 
     @property
     def _of_ranges(self) -> frozenset[str]:
@@ -110,19 +115,33 @@ class UnnamedPhysics:
         """Whether it goes with the clock, or the way rolled, of the recording that was explained."""
         return "t" in self.ranges
 
-    def weight(self, table: SymbolTable) -> Array:
-        """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
+    def weight(self, table: SymbolTable, known: Array | None = None) -> Array:
+        """Return how much of the equation holds at each sample, 0 to 1, shape (n,).
+
+        Parameters
+        ----------
+        table : SymbolTable
+        known : ndarray of bool, shape (n,), optional
+            Where the way since the start of the recording that was explained is known. Times do not matter
+            there to what turns with the way alone.
+        """
         out = np.ones(table.size)
         for symbol, (low, high) in self.ranges.items():
             x, width = evaluate(parse(symbol), table), max(_fade(symbol) * (high - low), 1e-12)
             outside = np.maximum(np.maximum(low - x, x - high), 0.0) / width
+            if symbol == "t" and known is not None and "t" not in self._used:
+                outside = np.where(known, 0.0, outside)
             out = out * np.maximum(1.0 - outside, 0.0)
         return out
+
+    def unweighted(self, table: SymbolTable) -> dict[str, Array]:
+        """Return what it would add to each output if it held everywhere, N (``mz``: N m)."""
+        return {o: evaluate(parse(text), table) for o, text in self.equations.items()}
 
     def change(self, table: SymbolTable) -> dict[str, Array]:
         """Return what it adds to each output, N (``mz``: N m)."""
         weight = self.weight(table)
-        return {o: evaluate(parse(text), table) * weight for o, text in self.equations.items()}
+        return {o: added * weight for o, added in self.unweighted(table).items()}
 
     def joined(self, other: UnnamedPhysics) -> UnnamedPhysics:
         """Return these equations and those of other outputs; they hold where both do."""
@@ -137,7 +156,7 @@ class UnnamedPhysics:
 
     def to_sidecar(self) -> dict[str, Any]:
         """Return what a reader needs, as JSON can hold it."""
-        used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
+        used = self._used
         return {
             "format": FORMAT,
             "title": self.title,
@@ -176,9 +195,11 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         if not equations or set(equations) - set(PLANE_FORCES):
             raise ValueError(f"its equations are of others than {', '.join(PLANE_FORCES)}")
         for text in equations.values():
-            unknown = parse(text).symbols - set(MEANING)
-            if unknown:
-                raise ValueError(f"it uses {', '.join(sorted(unknown))}")
+            used = parse(text).symbols
+            if used - set(MEANING):
+                raise ValueError(f"it uses {', '.join(sorted(used - set(MEANING)))}")
+            if "way" in used and content["format"] != FORMAT:
+                raise ValueError("its way rolled is that of an earlier format")
         ranges = {str(s): (float(r[0]), float(r[1])) for s, r in content["range"].items()}
         if any(
             parse(s).symbols - set(MEANING) or not (np.isfinite([a, b]).all() and a <= b)
@@ -276,6 +297,9 @@ class UnnamedReport:
     ideas : list of Idea
     instead_of : tuple of str
         Effects whose names it replaces: it leaves less on unseen sweeps than they do.
+    later : float
+        Part of an equation in the way rolled that is added after the recording, as far as earlier sweeps
+        predicted later ones.
     looked_for : bool
         Whether an equation was looked for.
     curve : dict of list
@@ -297,6 +321,7 @@ class UnnamedReport:
     p_value: float = 1.0
     ideas: list[Idea] = field(default_factory=list)
     instead_of: tuple[str, ...] = ()
+    later: float = 1.0
     looked_for: bool = True
     curve: dict[str, Any] = field(default_factory=dict)
 
@@ -327,4 +352,5 @@ class UnnamedReport:
             better=min(self.better, other.better),
             p_value=max(self.p_value, other.p_value),
             ideas=list(dict.fromkeys((*self.ideas, *other.ideas))),
+            later=min(self.later, other.later),
         )

@@ -73,7 +73,7 @@ def proven(columns: Columns) -> list[Proven]:
     """Choose without each fold in turn, and predict it: with one term, with two at most, with three."""
     problem = columns.problem
     predicted = [{o: np.zeros(problem.table.size) for o in problem.outputs} for _ in range(MOST_TERMS)]
-    choices = [0] * MOST_TERMS
+    choices, of_all = [0] * MOST_TERMS, [True] * MOST_TERMS
     for fold in range(FOLDS):
         choice = choose(columns, np.arange(FOLDS) != fold, refine=False)
         rows = columns.folds == fold
@@ -82,9 +82,10 @@ def proven(columns: Columns) -> list[Proven]:
             if model is None:
                 continue
             choices[k] += 1
+            of_all[k] &= all(set(WAY[choice.terms[i].way].base) >= set(predicted[k]) for i in model.terms)
             for o, force in forces_of(columns, choice, model.terms).items():
                 predicted[k][o][rows] = force[rows]
-    return [judged(columns, p, c) for p, c in zip(predicted, choices, strict=True)]
+    return [judged(columns, *each) for each in zip(predicted, choices, of_all, strict=True)]
 
 
 def best_of(proofs: Sequence[Proven]) -> int:
@@ -97,8 +98,12 @@ def best_of(proofs: Sequence[Proven]) -> int:
     return next(k for k, share in enumerate(shares) if share >= _NEAR_MOST * max(shares))
 
 
-def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Proven:
-    """Compare the errors with and without what was predicted, force by force and sweep by sweep."""
+def judged(columns: Columns, predicted: Mapping[str, Array], choices: int, of_all: bool = False) -> Proven:
+    """Compare the errors with and without what was predicted, force by force and sweep by sweep.
+
+    Where each term acts on all forces (``of_all``) by one coefficient, nothing is free any more once one
+    force is sure: the others are tested once, and not as one of nine.
+    """
     problem = columns.problem
     sweeps = int(problem.block.max()) + 1
     gain, gone, chance = {}, {}, {}
@@ -108,7 +113,10 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
         gain[o] = np.bincount(problem.block, (before**2 - after**2) / size, sweeps)
         gone[o] = 1.0 - float(np.mean(after**2)) / size
         chance[o] = chance_of_no_gain(gain[o])
-    good = tuple(o for o in gain if gone[o] >= _LEAST_GONE and chance[o] < _LEVEL_OF_PROOF)
+    enough = [o for o in gain if gone[o] >= _LEAST_GONE]
+    sure = any(chance[o] < _LEVEL_OF_PROOF for o in enough)
+    level = CHANCE if of_all and sure else _LEVEL_OF_PROOF
+    good = tuple(o for o in enough if chance[o] < level)
     if not good:
         return Proven(predicted, choices, 0, sweeps, min(chance.values(), default=1.0), 0.0, ())
     better = int(np.sum(sum(gain[o] for o in good) > 0.0))

@@ -48,7 +48,11 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
-from tire_pipeline.mismatch.unnamed_physics.where_it_holds import distance, way_through_play
+from tire_pipeline.mismatch.unnamed_physics.where_it_holds import (
+    distance,
+    part_that_later_sweeps_confirm,
+    way_through_play,
+)
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -216,7 +220,17 @@ def _reported(problem: Unexplained, parts: Sequence[ChosenEquation]) -> UnnamedR
         p_value=max(p.proof.p_value for p in parts),
         ideas=matching(frozenset[str]().union(*(p.drivers for p in parts)), terms),
         curve=_curve(first.columns, first.choice, first.model),
+        later=min((_confirmed_later(p) for p in parts if "path" in p.drivers), default=1.0),
     )
+
+
+def _confirmed_later(part: ChosenEquation) -> float:
+    problem, outputs = part.columns.problem, part.outputs
+    terms = [
+        {o: column[o] for o in outputs} for t in part.terms if (column := part.columns.of(t)) is not None
+    ]
+    rest = {o: problem.rest[o] for o in outputs}
+    return part_that_later_sweeps_confirm(terms, rest, problem.largest, problem.block)
 
 
 def _parts(looked: Sequence[_Looked]) -> list[ChosenEquation]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from tire_pipeline.mismatch.model.blocks import whole_sweeps
 from tire_pipeline.mismatch.model.channels import DOES_NOTHING, largest
+from tire_pipeline.mismatch.proof.nested import FOLDS
+from tire_pipeline.mismatch.proof.never_worse import confirmed_part
 from tire_pipeline.mismatch.unnamed_physics.found import FADE
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable, evaluate, number, parse
 from tire_pipeline.mismatch.unnamed_physics.library import Factor
@@ -43,6 +46,43 @@ def distance(terms: Mapping[str, Array]) -> tuple[str, float] | None:
     ]
     text = "sqrt(" + " + ".join(f"({form})^2" for form in forms) + ")"
     return text, largest(np.linalg.norm(x @ white, axis=1))
+
+
+def part_that_later_sweeps_confirm(
+    terms: Sequence[Mapping[str, Array]],
+    rest: Mapping[str, Array],
+    largest_force: Mapping[str, float],
+    block: Array,
+) -> float:
+    """Return the part of an equation that earlier sweeps predict of later ones, 0 to 1.
+
+    After the recording nothing is left to its later side, and what turns with the way loses its angle where
+    the way is a little wrong. Each fifth of the sweeps is predicted with coefficients by those before it.
+
+    Parameters
+    ----------
+    terms : sequence of mapping of ndarray, shape (n,)
+        What each term does to each force with coefficient 1, N.
+    rest : mapping of ndarray, shape (n,)
+        Residual of each force that the equation acts on, N.
+    largest_force : mapping of float
+        N.
+    block : ndarray of int, shape (n,)
+        Sweep of each sample.
+    """
+    fold = block * FOLDS // (int(block.max()) + 1)
+    x = {o: np.column_stack([term[o] for term in terms]) / largest_force[o] for o in rest}
+    left = {o: r.copy() for o, r in rest.items()}
+    for fifth in range(1, FOLDS):
+        seen, later = fold < fifth, fold == fifth
+        columns = np.vstack([each[seen] for each in x.values()])
+        wanted = np.concatenate([r[seen] / largest_force[o] for o, r in rest.items()])
+        size = np.linalg.lstsq(columns, wanted)[0]
+        for o, r in left.items():
+            r[later] -= x[o][later] @ size * largest_force[o]
+    known = fold > 0
+    before, after = ({o: r[known] for o, r in each.items()} for each in (rest, left))
+    return confirmed_part(before, after, largest_force, whole_sweeps(block)[known]) if known.any() else 0.0
 
 
 def way_through_play(factor: Factor, table: SymbolTable) -> tuple[str, tuple[float, float]] | None:

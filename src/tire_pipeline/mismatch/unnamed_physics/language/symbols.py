@@ -12,6 +12,7 @@ from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
+from tire_pipeline.mismatch.model.wheel import way_rolled
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable
 
 Array = np.ndarray
@@ -30,7 +31,7 @@ MEANING = {
     "p": "pressure / P0",
     "h": "(tread_temperature - T0) / 20 K",
     "t": "time, s",
-    "way": "way rolled since the first sample, m: the sum of |speed| times the time step",
+    "way": "way rolled since the first sample, m: at the mean |speed| of each two neighbours",
     "fx": "longitudinal force of the tire model with the named effects in full, N",
     "fy": "lateral force of the same, N",
     "mz": "aligning moment of the same, N m",
@@ -91,7 +92,9 @@ def table_of(
     """
     nominal = _nominal(data) if nominal is None else nominal
     forces = simulate(data, changes) | (simulate_moments(data, changes, moments) if moments else {})
-    return table_from(data.channels, data.time, data.start, {**forces, **_slopes(data)}, nominal), nominal
+    columns = {**forces, **_slopes(data)}
+    way = data.wheel.known_way
+    return table_from(data.channels, data.time, data.start, columns, nominal, way), nominal
 
 
 def table_from(
@@ -100,8 +103,13 @@ def table_from(
     start: Array,
     forces: Mapping[str, Array],
     nominal: NominalValues,
+    rolled: Array | None = None,
 ) -> SymbolTable:
-    """Return the symbols of channels in SI; one that was not recorded has none."""
+    """Return the symbols of channels in SI; one that was not recorded has none.
+
+    ``rolled`` is the way since the first sample of the recording that was explained, m, shape (n,), if that
+    is another one. Where it is NaN nobody knows it, and an equation in it is left out.
+    """
     step = np.zeros(start.size)
     if time is not None:
         step[1:] = np.maximum(np.diff(time), 0.0)
@@ -124,7 +132,7 @@ def table_from(
     if time is not None:
         columns["t"] = time
         if "speed" in channels:
-            columns["way"] = np.cumsum(way)
+            columns["way"] = np.nan_to_num(way_rolled(channels["speed"], time) if rolled is None else rolled)
     return SymbolTable(columns, step, way, start)
 
 
