@@ -14,9 +14,9 @@ import pandas as pd
 from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
-from tire_pipeline.mismatch.corrected.put_in_equation import put_equation
 from tire_pipeline.mismatch.corrected.going_on import GoingOn
 from tire_pipeline.mismatch.corrected.holes import around_holes
+from tire_pipeline.mismatch.corrected.put_in_equation import put_equation
 from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
