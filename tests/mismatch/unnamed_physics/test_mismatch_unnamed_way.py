@@ -1,4 +1,4 @@
-"""An equation in the way rolled: the same at each row of the recording, and what follows it at once."""
+"""An equation in the way rolled, or in what was: in the recording, and in what follows it at once."""
 
 from dataclasses import replace
 
@@ -12,6 +12,7 @@ from tire_pipeline.mismatch.model.wheel import way_rolled
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError
+from tire_pipeline.mismatch.unnamed_physics.library import LAGS, WAYS, memory_factors
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import judged
 from tire_pipeline.mismatch.unnamed_physics.where_it_holds import part_that_later_sweeps_confirm
@@ -112,3 +113,12 @@ def test_the_way_goes_on_in_a_pause():
     columns, channels, time = table()
     np.testing.assert_allclose(columns.columns["way"], way_rolled(channels["speed"], time))
     assert np.diff(columns.columns["way"]).max() > 50.0
+
+
+def test_no_lag_is_longer_than_those_that_are_looked_for():
+    """84 s in a recording of 40 s was the clock under another name: 157 N became 305 N in what followed."""
+    lags = [f for f in memory_factors(frozenset({"slip_angle", "time", "way"})) if "lag" in f.text]
+    for factor in lags:
+        most = (WAYS if "lagway" in factor.text else LAGS)[-1]
+        assert factor.at(3.0 * most).value == most
+        assert factor.at(0.5 * most).value == 0.5 * most

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import Literal
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
@@ -100,6 +100,8 @@ class Factor:
         The number.
     kind : str
         ``now``, ``memory`` or ``path``.
+    most : float
+        The largest number that is looked for. A lag that is longer than a recording only seems to be one.
     """
 
     text: str
@@ -107,6 +109,7 @@ class Factor:
     odd: bool = False
     value: float = 0.0
     kind: str = "now"
+    most: float = math.inf
 
     @property
     def written(self) -> str:
@@ -114,8 +117,8 @@ class Factor:
         return self.text.replace("{}", number(self.value))
 
     def at(self, value: float) -> Factor:
-        """Return the same with another number."""
-        return Factor(self.text, self.drivers, self.odd, value, self.kind)
+        """Return the same with another number, ``most`` at the most."""
+        return replace(self, value=min(value, self.most))
 
 
 @cache
@@ -162,8 +165,15 @@ class Term:
         return self.odd != WAY[self.way].odd and not any(f.kind == "path" for f in self.factors)
 
 
-def _one(text: str, *drivers: str, odd: bool = False, value: float = 0.0, kind: str = "now") -> Factor:
-    return Factor(text, frozenset(drivers), odd, value, kind)
+def _one(
+    text: str,
+    *drivers: str,
+    odd: bool = False,
+    value: float = 0.0,
+    kind: str = "now",
+    most: float = math.inf,
+) -> Factor:
+    return Factor(text, frozenset(drivers), odd, value, kind, most)
 
 
 _NOW = (
@@ -227,13 +237,14 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
         if not live or (len(channels) == 1 and live != list(channels)):
             continue
         drivers = [c if c == "speed" else f"memory of {c}" for c in live]
+        lagged = partial(_one, odd=odd, kind="memory", most=LAGS[-1])
         for value in LAGS:
-            yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
+            yield lagged(f"lag({text}, {{}}) - {text}", *drivers, value=value)
             if value in LAGS[2:] and text not in CHANNEL:  # a slow one drives by itself, too
-                yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
+                yield lagged(f"lag({text}, {{}})", *drivers, value=value)
         if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
             for value in WAYS if text in CHANNEL else ():
-                yield _one(f"lagway({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
+                yield lagged(f"lagway({text}, {{}}) - {text}", *drivers, value=value, most=WAYS[-1])
         if text.startswith("abs("):
             yield _one(f"highest({text})", *drivers, odd=odd, kind="memory")
     for text, widths in PLAYS.items():
