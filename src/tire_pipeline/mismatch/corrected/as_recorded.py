@@ -20,6 +20,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate_moments
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.proof.never_worse import Guarded
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 Array = np.ndarray
@@ -28,6 +29,7 @@ Array = np.ndarray
 def as_recorded(
     fit: dict[str, OutputFit],
     analysis: Analysis,
+    allowed: Guarded,
     corrected: CorrectedModel,
     recording: pd.DataFrame,
     used: Array,
@@ -40,6 +42,8 @@ def as_recorded(
     fit : dict of OutputFit
         Errors on the rows that were weighed.
     analysis : Analysis
+    allowed : Guarded
+        What is added: ``corrected`` has it.
     corrected : CorrectedModel
     recording : pandas.DataFrame
         As it came.
@@ -60,15 +64,13 @@ def as_recorded(
     after = before if same else _errors(corrected, recording, fit)
     first, last = (_left(analysis.data, changes, fit) for changes in ([], analysis.fit.changes))
     last = {o: first[o] if o in corrected.as_filed else rest for o, rest in last.items()}
-    inside = {o: rms(partly(first[o], last[o], corrected.part)) for o in first}
+    inside = {o: rms(partly(first[o], last[o], allowed.added(o))) for o in first}
     good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
-    alone = replace(corrected, instead=())
-    of_fit = after if same or not corrected.instead else _errors(alone, recording, fit)
     if same and analysis.data.simulation.own_relaxation:  # what lacks the file's lag leaves more than noise
         return {o: replace(m, noise_floor=fit[o].noise_floor) for o, m in moved.items()}
     return {
-        o: replace(m, noise_floor=_noise(fit[o].noise_floor, of_fit[o][used], inside[o]))
+        o: replace(m, noise_floor=_noise(fit[o].noise_floor, after[o][used], inside[o]))
         for o, m in moved.items()
     }
 

@@ -23,14 +23,15 @@ def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
     return {o: data.recorded[o] - f[o] for o in data.outputs}
 
 
-def partly(before: T, after: T, part: float) -> T:
+def partly(before: T, after: T, part: float | Array) -> T:
     """Return a value, a force or what is left of one with a part of a change, 0 to 1.
 
     Parameters
     ----------
     before, after : float or ndarray
         Without the change, and with all of it.
-    part : float
+    part : float or ndarray
+        Of all samples, or of each.
     """
     return before - part * (before - after)
 
