@@ -24,6 +24,12 @@ def goes_with_time(change: Change, data: Data) -> bool:
     return effect.family == "slow" and data.measured.isdisjoint(effect.drivers(""))
 
 
+def goes_by_clock(change: Change) -> bool:
+    """Whether an effect's state follows the clock alone: no channel and no work."""
+    effect = catalogue()[change[0]]
+    return effect.family == "slow" and effect.needs_time and not effect.used
+
+
 def going_on(
     data: Data, changes: Sequence[Change], rolled: WheelWay | None, confirmed: Callable[[list[int]], float]
 ) -> GoingOn | None:
@@ -43,9 +49,7 @@ def going_on(
     if not own or rolled is None:
         return None
     pause = max(float(np.diff(rolled.time).max(initial=0.0)), LONG_GAP * data.sampling)
-    return GoingOn(
-        float(rolled.time[-1]), pause, data.time_line, data.step, data.states.power, confirmed(own)
-    )
+    return GoingOn(rolled, pause, data.time_line, data.step, data.states.power, confirmed(own))
 
 
 @dataclass(frozen=True)
@@ -54,8 +58,8 @@ class GoingOn:
 
     Parameters
     ----------
-    last : float
-        Time of its last sample, s.
+    rolled : WheelWay
+        Its samples, as they were recorded.
     pause : float
         Longest time between two of its samples, at least ``LONG_GAP`` usual ones, s.
     time, step : ndarray, shape (n,)
@@ -67,12 +71,17 @@ class GoingOn:
         (:func:`.corrected.later_sweeps.confirmed_later`).
     """
 
-    last: float
+    rolled: WheelWay
     pause: float
     time: Array
     step: Array
     power: Array | None
     part: float
+
+    @property
+    def last(self) -> float:
+        """Time of its last sample, s."""
+        return float(self.rolled.time[-1])
 
     def put_into(self, data: Data) -> Data:
         """Return a recording to predict with states that go by the clock of the one that was explained."""
@@ -87,6 +96,19 @@ class GoingOn:
         """
         return data.time is not None and float(data.time[0]) > self.last + self.pause
 
+    def another_clock(self, data: Data) -> bool:
+        """Whether a recording has samples while the one that was explained was running, and none of its own.
+
+        Then both clocks were set to zero, and nothing says what came first.
+        """
+        if data.time is None or data.wheel.known_way is None or np.isfinite(data.wheel.known_way).any():
+            return False
+        time = self.rolled.time
+        end = np.searchsorted(time, data.time)
+        between = (end > 0) & (end < time.size)
+        steps = time[end[between]] - time[end[between] - 1]
+        return bool((steps <= LONG_GAP * float(np.median(np.diff(time)))).any())
+
     def after(self, data: Data) -> Array:
         """Return which samples are after the recording that was explained, bool, shape (n,)."""
         return np.zeros(data.size, bool) if data.time is None else data.time > self.last
@@ -94,7 +116,13 @@ class GoingOn:
     def added(
         self, data: Data, changes: Sequence[Change], add: Callable[[Sequence[Change]], dict[str, Array]]
     ) -> dict[str, Array]:
-        """Return forces with effects that ``add`` adds in full; after the recording those of time in part."""
+        """Return forces with effects that ``add`` adds in full; after the recording those of time in part.
+
+        What follows the clock alone is left out where that is another one: a drift may be there from its
+        begin, or begin anew, or be gone.
+        """
+        if self.another_clock(data):
+            return add([change for change in changes if not goes_by_clock(change)])
         whole, after = add(changes), self.after(data)
         lasting = [change for change in changes if not goes_with_time(change, data)]
         if len(lasting) == len(changes) or not after.any():
@@ -104,6 +132,13 @@ class GoingOn:
 
     def note(self, data: Data, changes: Sequence[Change]) -> list[str]:
         """Say what is added after the recording that was explained, if there is anything."""
+        if self.another_clock(data):
+            return [
+                f"{catalogue()[change[0]].title}: left out; it goes by the clock of the recording that was "
+                "explained, and this one has a clock of its own"
+                for change in changes
+                if goes_by_clock(change)
+            ]
         titles = [catalogue()[change[0]].title for change in changes if goes_with_time(change, data)]
         share = float(np.mean(self.after(data)))
         if not titles or not share:
