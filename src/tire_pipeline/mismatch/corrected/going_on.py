@@ -24,12 +24,6 @@ def goes_with_time(change: Change, data: Data) -> bool:
     return effect.family == "slow" and data.measured.isdisjoint(effect.drivers(""))
 
 
-def goes_by_clock(change: Change) -> bool:
-    """Whether an effect's state follows the clock alone: no channel and no work."""
-    effect = catalogue()[change[0]]
-    return effect.family == "slow" and effect.needs_time and not effect.used
-
-
 def going_on(
     data: Data, changes: Sequence[Change], rolled: WheelWay | None, confirmed: Callable[[list[int]], float]
 ) -> GoingOn | None:
@@ -122,7 +116,7 @@ class GoingOn:
         begin, or begin anew, or be gone.
         """
         if self.another_clock(data):
-            return add([change for change in changes if not goes_by_clock(change)])
+            return add([change for change in changes if not catalogue()[change[0]].by_clock])
         whole, after = add(changes), self.after(data)
         lasting = [change for change in changes if not goes_with_time(change, data)]
         if len(lasting) == len(changes) or not after.any():
@@ -137,7 +131,7 @@ class GoingOn:
                 f"{catalogue()[change[0]].title}: left out; it goes by the clock of the recording that was "
                 "explained, and this one has a clock of its own"
                 for change in changes
-                if goes_by_clock(change)
+                if catalogue()[change[0]].by_clock
             ]
         titles = [catalogue()[change[0]].title for change in changes if goes_with_time(change, data)]
         share = float(np.mean(self.after(data)))
