@@ -145,30 +145,6 @@ def test_a_cause_without_a_name_stands_beside_what_would_do_as_well():
     assert any("has an explanation in the catalogue" in remark for remark in told.remarks)
 
 
-@pytest.mark.parametrize(
-    ("name", "kind", "spot"),
-    [
-        ("sensor_drift", "artefact", "Between 80 and 120 s, Fy is on average 180 N"),
-        (
-            "surface_change",
-            "physics",
-            "At load above 5 kN and between 80 and 120 s, Fy is on average 250 N",
-        ),
-        ("friction_scale", "physics", "At load above 5 kN, Fy is on average 250 N"),
-    ],
-)
-def test_what_follows_the_clock_is_placed_in_time(name, kind, spot):
-    """A drift was "at load above 39.9 kN", or "at camber above 0.01 deg": what was recorded last."""
-    ranges = {"time": (0.0, 120.0), "normal_load": (2000.0, 6000.0)}
-    places = [
-        Located("fy", "normal_load", 5000.0, 6000.0, -250.0, -0.1, 0.01, True),
-        Located("fy", "time", 80.0, 120.0, -180.0, -0.05, 0.01, True),
-    ]
-    effect = replace(EFFECT, name=name, kind=kind, where={"normal_load": (5000.0, 6000.0)})
-    told = head("explained", [effect], FIT, places, NONE, "", ranges)
-    assert spot in sentences(told.text)[1]
-
-
 def test_what_an_equation_predicts_of_unseen_sweeps_was_no_noise():
     noisy = {"fy": replace(FIT["fy"], noise_floor=100.0), "fx": OutputFit(30.0, 25.0, 25.0, 24.0, 26.0)}
     told = with_unnamed(noisy, FOUND)
