@@ -28,7 +28,7 @@ def test_what_follows_the_clock_is_placed_in_time(name, kind, spot):
         Located("fy", "time", 80.0, 120.0, -180.0, -0.05, 0.01, True),
     ]
     where = {"normal_load": (5000.0, 6000.0)}
-    effect = EffectReport(name, kind, "a cause", (), 0.99, "fy", {}, [], 0.8, "", "", where)
+    effect = EffectReport(name, kind, "a cause", (), 0.99, "fy", where, [], 0.8, "", "", {})
     fit, nothing = {"fy": OutputFit(20.0, 300.0, 120.0, 110.0, 130.0)}, Remainder({}, [], False)
     told = head("explained", [effect], fit, places, nothing, "", ranges)
     assert spot in told.text
