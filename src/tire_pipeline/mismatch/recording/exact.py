@@ -138,7 +138,7 @@ def open_axes(
         why = f"the recording agrees with the model only in other axes ({'; '.join(stated)})"
         if any(_as_mirrored(f, "camber" in arrays) for f in signs):
             return Question(
-                f"{why}, or is of a tire of the other side", _OTHER_SIDE + _READ_AGAIN, stated=stated
+                f"{why}, or is of a tire of the other side", _SIDE_OF_FILE + _READ_AGAIN, stated=stated
             )
         return Question(why, _READ_AGAIN, stated=stated)
     known = arrays if time is None else {**arrays, "time": time}
@@ -167,7 +167,7 @@ def _as_mirrored(finding: Finding, camber: bool) -> bool:
     return mirrored in (set(finding.channel.split(", ")), *map(set, finding.alike))
 
 
-_OTHER_SIDE = "see that the file is of the side on which the tire was mounted (TYRESIDE), "
+_SIDE_OF_FILE = "see that the file is of the side on which the tire was mounted (TYRESIDE), "
 _READ_AGAIN = (
     'read the file with axes="ISO", "SAE" or "adapted SAE", whichever holds, or turn the channel at its '
     "source, and explain again"
