@@ -270,8 +270,9 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     Notes
     -----
     Both predictions put in signs and units that were found to be wrong in the explained recordings, so that
-    the difference is due to the effects. Wear, drift and a change of surface start from zero in this
-    recording. The interval resamples independent stretches of the recording.
+    the difference is due to the effects. Wear and heat start from zero in this recording; a drift and a
+    change of surface are left out, unless its clock is that of the explained recordings. The interval
+    resamples independent stretches of the recording.
     """
     usable = _finite(usable_numbers(recording))
     after = corrected.predict(usable)

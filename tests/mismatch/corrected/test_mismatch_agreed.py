@@ -5,8 +5,11 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.mismatch import CorrectedModel
-from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.agreed import agreed, share_agreed
+from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.nominal import Reference
+from tire_pipeline.mismatch.model.residual import partly
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.tir import read_tir
 
 GAIN = (("force_gain", {"fy": 0.1, "fx": 0.0}),)
@@ -46,6 +49,16 @@ def test_no_true_explanation_among_them_is_overshot(tire, run):
     for truth in (GAIN, OFFSET):
         recorded = CorrectedModel(tire, truth, ("fy",)).predict(run)["fy"]
         assert (np.abs(recorded - both) <= np.abs(recorded - plain) + 1e-9).all()
+
+
+def test_the_share_that_is_proved_is_the_share_that_is_added(tire, record):
+    data = prepare(tire, record(3)).data
+    share = share_agreed(data, GAIN, ((0.5, OFFSET),))["fy"]
+    plain, own, other = (simulate(data, changes) for changes in ((), GAIN, OFFSET))
+    whole = agreed(plain, [own, other], [1.0, 0.5])["fy"]
+    np.testing.assert_allclose(partly(plain["fy"], own["fy"], share), whole, atol=1e-6)
+    assert 0.0 <= share.min() < 0.5 < share.max() <= 1.0
+    assert share_agreed(data, GAIN, ()) == {}
 
 
 def test_one_explanation_alone_is_added_whole(tire, run):

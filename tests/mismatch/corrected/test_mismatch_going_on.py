@@ -68,6 +68,27 @@ def test_after_a_pause_the_tire_counts_as_new(tire, record):
     assert "begin anew" not in model.predict(rest).attrs["notes"][0]
 
 
+def test_by_another_clock_nobody_knows_how_far_a_drift_is(tire, record):
+    """Both clocks began at zero, and the drift of the one was put into the other: 220 N became 269 N."""
+    run = record(0)
+    other = run[run["time"] > 75.0].assign(time=lambda rest: rest["time"] - rest["time"].iloc[0])
+    plain = explained_until(75.0, tire, run, ()).predict(other)["fy"]
+    drifting = explained_until(75.0, tire, run, (DRIFT,)).predict(other)
+    np.testing.assert_allclose(drifting["fy"], plain)
+    assert "has a clock of its own" in drifting.attrs["notes"][0]
+    worn, both = (explained_until(75.0, tire, run, c).predict(other)["fy"] for c in ((WEAR,), (WEAR, DRIFT)))
+    np.testing.assert_allclose(both, worn)
+    assert np.abs(worn - plain).max() > 300.0
+
+
+def test_sweeps_that_were_held_out_of_a_recording_have_its_clock(tire, record):
+    run = record(0)
+    out = (run["time"] > 30.0) & (run["time"] < 45.0)
+    model = explained_until(75.0, tire, run[~out], (DRIFT,))
+    plain = model.as_it_came.predict(run[out])["fy"]
+    assert (model.predict(run[out])["fy"] - plain).mean() == pytest.approx(150.0, abs=10.0)
+
+
 def test_in_the_recording_that_was_explained_nothing_changes(tire, record):
     run = record(0)
     first = run[run["time"] < 75.0]

@@ -78,3 +78,13 @@ def test_samples_without_a_load_are_of_no_recording():
     at = rolled.at(time, load)
     assert np.flatnonzero(np.isnan(at)).tolist() == [3]
     np.testing.assert_allclose(np.delete(at, 3), np.delete(20.0 * time, 3))
+
+
+def test_a_recording_with_a_clock_of_its_own_follows_nothing():
+    """It starts at zero, too, and is longer: what it has beyond the end of the other one follows nothing."""
+    time, load, speed = np.arange(0.0, 20.0, 0.01), np.full(2000, 4000.0), np.full(2000, 20.0)
+    rolled = WheelWay(time[:1000], load[:1000], 20.0 * time[:1000])
+    np.testing.assert_allclose(rolled.at(time, load, speed), 20.0 * time)
+    assert np.isnan(rolled.at(time, load + 1.0, speed)).all()
+    beyond = np.isfinite(rolled.at(time[900:], load[900:], speed[900:]))
+    assert beyond.all()

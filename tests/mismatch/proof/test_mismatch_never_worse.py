@@ -11,7 +11,8 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.linearised_set import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.nominal import Reference
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.proof.held_out import prove
 from tire_pipeline.mismatch.proof.never_worse import confirmed_part, guarded
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.assemble import assembled
@@ -30,6 +31,20 @@ def test_what_is_put_in_was_named_and_leaves_less_of_unseen_sweeps(softer):
     assert allowed.fit.names == softer.analysis.fit.names != []
     assert 0.5 < allowed.part <= 1.0
     assert np.std(allowed.left["fy"]) < np.std(before["fy"])
+
+
+def test_the_error_after_it_is_of_what_is_added(softer):
+    """What open explanations do not agree on was taken for noise of the rows: 86 N became "99 N"."""
+    allowed = guarded(softer.analysis, softer.sets, LEVEL)
+    before, size = residual(softer.analysis.data, [])["fy"], softer.analysis.data.size
+    for share in (0.0, 0.5, 1.0):
+        part = replace(allowed, agreed={"fy": np.full(size, share)})
+        proved = prove(softer.analysis, part, {"fy": 1.0})["fy"]
+        left = (1.0 - share) * before + share * allowed.left["fy"]
+        assert proved.rms_after == pytest.approx(rms(left))
+        assert proved.rms_after_low <= proved.rms_after <= proved.rms_after_high
+        if share == 0.0:
+            assert proved.rms_condition_after == pytest.approx(proved.rms_condition_before)
 
 
 @pytest.mark.parametrize("offset", [300.0, 1500.0])

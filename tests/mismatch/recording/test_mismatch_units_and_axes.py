@@ -132,6 +132,20 @@ def test_axes_that_nobody_stated_are_found_and_asked_for(tire, turned, gain):
         assert any("taken as -1 times" in a for a in prepared.assumed)
 
 
+@pytest.mark.parametrize("cambers", ["none", "one", "three"])
+def test_a_tire_of_the_other_side_is_asked_about(tire, cambers):
+    """Its axes were right, and stated: that it "agrees only in other axes" was not true."""
+    recording = misread(cambered(tire, 0), ("slip_angle", "camber", "fy"), 1.0)
+    if cambers != "three":
+        recording = recording[recording["camber"] == 0.0]
+    asked = prepare(leaning(tire), recording.drop(columns="camber" if cambers == "none" else [])).question
+    assert "is of a tire of the other side" in asked.why
+    assert "TYRESIDE" in asked.todo
+    if cambers == "three":
+        sae = prepare(leaning(tire), misread(cambered(tire, 0), ("slip_angle", "fy"), 1.0)).question
+        assert "other side" not in sae.why
+
+
 def test_while_axes_are_open_no_physics_is_named_and_nothing_written(tire, tmp_path):
     """How often no physics is named, whatever was turned: ``rates``."""
     wrong = misread(cambered(tire, 1), ("slip_angle", "fy"), 1.07)

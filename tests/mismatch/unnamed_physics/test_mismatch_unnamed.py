@@ -12,6 +12,7 @@ from weighed import all_but, without_visible
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
+from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.unnamed_physics.against_names import NamesToBeat
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import EquationError, evaluate, parse
@@ -374,3 +375,18 @@ def test_an_equation_alone_leaves_the_inputs_as_they_were_recorded(on_a_drum):
     _, with_it = never_worse(report.unnamed, noisy, recording)
     assert with_it.unnamed is not None
     assert with_it.cleaned == {}
+
+
+def test_an_equation_knows_nothing_of_what_is_left_out(on_a_drum):
+    """It was said to take a third off an error of which half was what open explanations do not agree on."""
+    recording, report = on_a_drum
+    shifted = recording.assign(fy=recording["fy"] + 600.0)
+    offset = (("force_offset", {"fy": 600.0, "fx": 0.0}),)
+    half = replace(report.corrected, unnamed=None, changes=offset, part=0.5)
+    found, with_it = never_worse(report.unnamed, half, shifted)
+    left, own = np.square(found.unseen["fy"]), np.square(report.unnamed.unseen["fy"])
+    assert left[0] - own[0] == pytest.approx(300.0**2, rel=0.2)
+    assert left[0] - left[1] == pytest.approx(own[0] - own[1], rel=0.3)
+    assert rms(shifted["fy"] - with_it.predict(shifted)["fy"]) < 1.05 * np.sqrt(left[1])
+    again, _ = never_worse(report.unnamed, replace(half, part=1.0), shifted)
+    assert again.unseen == report.unnamed.unseen

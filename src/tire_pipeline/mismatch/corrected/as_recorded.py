@@ -20,6 +20,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate_moments
 from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.proof.never_worse import Guarded
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 Array = np.ndarray
@@ -28,6 +29,7 @@ Array = np.ndarray
 def as_recorded(
     fit: dict[str, OutputFit],
     analysis: Analysis,
+    allowed: Guarded,
     corrected: CorrectedModel,
     recording: pd.DataFrame,
     used: Array,
@@ -40,6 +42,8 @@ def as_recorded(
     fit : dict of OutputFit
         Errors on the rows that were weighed.
     analysis : Analysis
+    allowed : Guarded
+        What is added: ``corrected`` has it.
     corrected : CorrectedModel
     recording : pandas.DataFrame
         As it came.
@@ -60,15 +64,13 @@ def as_recorded(
     after = before if same else _errors(corrected, recording, fit)
     first, last = (_left(analysis.data, changes, fit) for changes in ([], analysis.fit.changes))
     last = {o: first[o] if o in corrected.as_filed else rest for o, rest in last.items()}
-    inside = {o: rms(partly(first[o], last[o], corrected.part)) for o in first}
+    inside = {o: rms(partly(first[o], last[o], allowed.added(o))) for o in first}
     good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
-    alone = replace(corrected, instead=())
-    of_fit = after if same or not corrected.instead else _errors(alone, recording, fit)
     if same and analysis.data.simulation.own_relaxation:  # what lacks the file's lag leaves more than noise
         return {o: replace(m, noise_floor=fit[o].noise_floor) for o, m in moved.items()}
     return {
-        o: replace(m, noise_floor=_noise(fit[o].noise_floor, of_fit[o][used], inside[o]))
+        o: replace(m, noise_floor=_noise(fit[o].noise_floor, after[o][used], inside[o]))
         for o, m in moved.items()
     }
 
@@ -87,9 +89,7 @@ def _noise(floor: float, after: Array, inside: float) -> float:
     return float(np.sqrt(floor**2 + further)) if further > 0.0 else floor
 
 
-def _errors(
-    corrected: CorrectedModel, recording: pd.DataFrame, outputs: dict[str, OutputFit]
-) -> dict[str, Array]:
+def _errors(corrected: CorrectedModel, recording: pd.DataFrame, outputs: Iterable[str]) -> dict[str, Array]:
     """Recorded minus predicted at the recorded rows, N or N m; NaN where something is missing.
 
     A force in another unit is brought to newtons: it is predicted as it is recorded.
@@ -172,13 +172,58 @@ def never_worse(
 
     Beside effects the inputs are as clean as these need them. An equation alone changes the forces that it
     acts on and nothing else: the inputs stay as they were recorded.
+
+    Returns
+    -------
+    found : UnnamedReport
+        ``unseen`` is what the equation leaves of this model's error.
+    put_in : CorrectedModel
     """
     if found.physics is None:
         return found, corrected
     cleaned = corrected.cleaned if corrected.changes else {}
     put_in = replace(corrected, unnamed=found.physics, unnamed_later=found.later, cleaned=cleaned)
-    with_it, without = put_in.predict(recording), corrected.predict(recording)
-    for o in found.physics.equations:
-        if rms(recording[o] - with_it[o]) >= rms(recording[o] - without[o]):
-            return found.refused("it predicts the rows as they were recorded no better"), corrected
+    outputs = tuple(found.physics.equations)
+    pair = _squared(corrected, recording, outputs), _squared(put_in, recording, outputs)
+    if any(with_it >= without for without, with_it in zip(*pair, strict=True)):
+        return found.refused("it predicts the rows as they were recorded no better"), corrected
+    if corrected.instead or corrected.part < 1.0:
+        every = (replace(m, instead=(), part=1.0) for m in (corrected, put_in))
+        whole = [_squared(m, recording, outputs) for m in every]
+        beside = {
+            o: _unseen_beside(found.unseen[o], (a, b), (c, d))
+            for o, a, b, c, d in zip(outputs, *pair, *whole, strict=True)
+        }
+        found = replace(found, unseen={**found.unseen, **beside})
     return found, put_in
+
+
+def _squared(model: CorrectedModel, recording: pd.DataFrame, outputs: Iterable[str]) -> list[float]:
+    """Mean squared errors of the recorded rows, N^2."""
+    return [rms(x) ** 2 for x in _errors(model, recording, outputs).values()]
+
+
+def _unseen_beside(
+    unseen: tuple[float, float, float], here: tuple[float, float], whole: tuple[float, float]
+) -> tuple[float, float, float]:
+    """Return what an equation leaves of unseen sweeps, N, beside a model that adds less than all effects.
+
+    The equation was found beside all of what they change. A model that adds what explanations agree on leaves
+    more, of which the equation knows nothing. Of what it removes from the recorded rows as much holds on
+    unseen sweeps as beside all effects.
+
+    Parameters
+    ----------
+    unseen : (before, after, ceiling)
+        Beside all effects.
+    here, whole : (without, with)
+        Mean squared error of the recorded rows without and with the equation, N^2, beside what the model adds
+        and beside all effects.
+    """
+    before, *after = unseen
+    first = before**2 + max(here[0] - whole[0], 0.0)
+    gone = [
+        (here[0] - here[1]) * (before**2 - left**2) / max(whole[0] - whole[1], before**2 - left**2)
+        for left in after
+    ]
+    return (first**0.5, *(max(first - each, 0.0) ** 0.5 for each in gone))

@@ -46,8 +46,7 @@ def going_on(
     own = [i for i, change in enumerate(changes) if goes_with_time(change, data) or turns(change)]
     if not own or rolled is None:
         return None
-    last, pause, states = float(rolled.time[-1]), rolled.longest_pause, data.states
-    return GoingOn(last, pause, data.time_line, data.step, states.power, confirmed(own))
+    return GoingOn(rolled, data.time_line, data.step, data.states.power, confirmed(own))
 
 
 @dataclass(frozen=True)
@@ -56,10 +55,8 @@ class GoingOn:
 
     Parameters
     ----------
-    last : float
-        Time of its last sample, s.
-    pause : float
-        Longest time between two of its samples, at least ``LONG_GAP`` usual ones, s.
+    rolled : WheelWay
+        Its samples, as they were recorded.
     time, step : ndarray, shape (n,)
         Of the samples that were weighed, s.
     power : ndarray, shape (n,), optional
@@ -69,12 +66,16 @@ class GoingOn:
         (:func:`.corrected.later_sweeps.confirmed_later`).
     """
 
-    last: float
-    pause: float
+    rolled: WheelWay
     time: Array
     step: Array
     power: Array | None
     part: float
+
+    @property
+    def last(self) -> float:
+        """Time of its last sample, s."""
+        return float(self.rolled.time[-1])
 
     def put_into(self, data: Data) -> Data:
         """Return a recording to predict with states that go by the clock of the one that was explained."""
@@ -87,7 +88,16 @@ class GoingOn:
 
         Nobody knows then whether the tire was changed. It counts as new and cold: that changes less.
         """
-        return data.time is not None and float(data.time[0]) > self.last + self.pause
+        return data.time is not None and float(data.time[0]) > self.last + self.rolled.longest_pause
+
+    def another_clock(self, data: Data) -> bool:
+        """Whether a recording has samples while the one that was explained was running, and none of its own.
+
+        Then both clocks were set to zero, and nothing says what came first.
+        """
+        if data.time is None or data.wheel.known_way is None or np.isfinite(data.wheel.known_way).any():
+            return False
+        return bool(self.rolled.running(data.time).any())
 
     def after(self, data: Data) -> Array:
         """Return which samples are after the recording that was explained, bool, shape (n,)."""
@@ -96,7 +106,13 @@ class GoingOn:
     def added(
         self, data: Data, changes: Sequence[Change], add: Callable[[Sequence[Change]], dict[str, Array]]
     ) -> dict[str, Array]:
-        """Return forces with effects that ``add`` adds in full; after it those of time and turns in part."""
+        """Return forces with effects that ``add`` adds in full; after it those of time and turns in part.
+
+        What follows the clock alone is left out where that is another one: a drift may be there from its
+        begin, or begin anew, or be gone.
+        """
+        if self.another_clock(data):
+            return add([change for change in changes if not catalogue()[change[0]].by_clock])
         whole, after = add(changes), self.after(data)
         lasting = [change for change in changes if not (goes_with_time(change, data) or turns(change))]
         if len(lasting) == len(changes) or not after.any():
@@ -106,6 +122,13 @@ class GoingOn:
 
     def note(self, data: Data, changes: Sequence[Change]) -> list[str]:
         """Say what is added after the recording that was explained, if there is anything."""
+        if self.another_clock(data):
+            return [
+                f"{catalogue()[change[0]].title}: left out; it goes by the clock of the recording that was "
+                "explained, and this one has a clock of its own"
+                for change in changes
+                if catalogue()[change[0]].by_clock
+            ]
         share, notes = float(np.mean(self.after(data))), []
         anew = "; wear and heat begin anew, after a longer pause" if self.another_session(data) else ""
         of_time = [change for change in changes if goes_with_time(change, data)]

@@ -35,6 +35,14 @@ class WheelWay:
         steps = np.diff(self.time)
         return float(max(steps.max(), LONG_GAP * np.median(steps))) if steps.size else 0.0
 
+    def running(self, time: Array) -> Array:
+        """Return which samples are of a time at which the recording was running, without a gap; bool."""
+        end = np.searchsorted(self.time, time)
+        between = (end > 0) & (end < self.time.size)
+        steps = self.time[end[between]] - self.time[end[between] - 1]
+        between[between] = steps <= LONG_GAP * float(np.median(np.diff(self.time)))
+        return between
+
     def own(self, time: Array, load: Array) -> Array:
         """Return which samples are of this recording, which has their time and load; bool, shape (n,)."""
         near = self._near(time)
@@ -45,7 +53,8 @@ class WheelWay:
 
         It is known in samples of this recording. It is known in those that follow it, too, as far as no pause
         is longer than those of the recording: the wheel rolls on. Elsewhere its angle is unknown, and what
-        repeats once a turn would be added at a wrong angle.
+        repeats once a turn would be added at a wrong angle. A recording with other samples of the same time
+        has a clock of its own, and does not follow.
 
         Parameters
         ----------
@@ -54,9 +63,10 @@ class WheelWay:
         speed : ndarray, shape (n,), optional
             m/s. What follows is unknown without it.
         """
-        way = np.where(self.own(time, load), self.way[self._near(time)], np.nan)
+        own = self.own(time, load)
+        way = np.where(own, self.way[self._near(time)], np.nan)
         after = np.flatnonzero(time > self.time[-1])
-        if speed is None or not after.size:
+        if speed is None or not after.size or np.any(self.running(time) & ~own):
             return way
         steps = np.diff(time[after], prepend=self.time[-1])
         breaks = ~((steps > 0.0) & (steps <= self.longest_pause))

@@ -208,6 +208,11 @@ class Effect:
     experiment = ""
     order = 50
 
+    @property
+    def by_clock(self) -> bool:
+        """Whether its state follows the clock alone: no channel, and no work."""
+        return self.family == "slow" and self.needs_time and not self.used
+
     def absent(self, data: Context) -> str | None:
         """Return why the effect cannot be tested in this recording, or None if it can."""
         if self.needs_time and data.time is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeVar
+from typing import overload
 
 import numpy as np
 import scipy
@@ -14,7 +14,6 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
-T = TypeVar("T", float, np.ndarray)
 
 
 def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
@@ -23,14 +22,19 @@ def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
     return {o: data.recorded[o] - f[o] for o in data.outputs}
 
 
-def partly(before: T, after: T, part: float) -> T:
+@overload
+def partly(before: float, after: float, part: float) -> float: ...
+@overload
+def partly(before: Array, after: Array, part: float | Array) -> Array: ...
+def partly(before: float | Array, after: float | Array, part: float | Array) -> float | Array:
     """Return a value, a force or what is left of one with a part of a change, 0 to 1.
 
     Parameters
     ----------
     before, after : float or ndarray
         Without the change, and with all of it.
-    part : float
+    part : float or ndarray
+        Of all samples, or of each.
     """
     return before - part * (before - after)
 

@@ -14,28 +14,26 @@ from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import partly, residual, rms, root_ratio_interval
 from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.proof.never_worse import Guarded
 
 Array = np.ndarray
 
 
 def prove(
     analysis: Analysis,
-    after: dict[str, Array],
+    allowed: Guarded,
     noise: Mapping[str, float],
-    part: float = 1.0,
 ) -> dict[str, OutputFit]:
     """Return for each output the error on sweeps that neither the choice of effects nor its fit has seen.
 
     Parameters
     ----------
     analysis : Analysis
-    after : dict of ndarray, shape (n,)
-        The residual of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
-        held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
+    allowed : Guarded
+        What is added. In the held-out condition the effects are locked, and the parameters are fitted to the
+        sweeps outside of it.
     noise : mapping of float
         Output -> RMS of the recording's noise, N (:func:`.proof.remainder.noise_floors`).
-    part : float
-        Of what the effects change, which is added.
     """
     data = analysis.data
     before = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}
@@ -43,18 +41,19 @@ def prove(
     condition = _condition(analysis, rows) if rows is not None else None
     out = {}
     for o in data.outputs:
-        low, high = _interval(analysis, after[o])
+        after = partly(before[o], allowed.left[o], allowed.agreed.get(o, 1.0))
+        low, high = _interval(analysis, after)
         out[o] = OutputFit(
             noise_floor=noise[o],
             rms_before=rms(before[o]),
-            rms_after=rms(after[o]),
+            rms_after=rms(after),
             rms_after_low=low,
             rms_after_high=high,
             held_out_condition=name,
             rms_condition_before=float("nan") if rows is None else rms(before[o][rows]),
             rms_condition_after=float("nan")
             if condition is None or rows is None
-            else rms(partly(before[o][rows], condition[o], part)),
+            else rms(partly(before[o], condition[o], allowed.added(o))[rows]),
         )
     return out
 
@@ -65,10 +64,10 @@ def _interval(analysis: Analysis, after: Array) -> tuple[float, float]:
     return root_ratio_interval(sums, np.bincount(analysis.block, minlength=analysis.system.count))
 
 
-def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]:
+def prove_moments(analysis: Analysis, allowed: Guarded) -> dict[str, OutputFit]:
     """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
 
-    ``part`` is added of what the effects change. Moments that the model does not give (no coefficients, or
+    Moments that the model does not give (no coefficients, or
     another simulator's output in its place) are left out.
     """
     data = analysis.data
@@ -81,7 +80,7 @@ def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]
     for name in names:
         recorded = data.channels[name]
         before = recorded - plain[name]
-        after = partly(before, recorded - corrected[name], part)
+        after = partly(before, recorded - corrected[name], allowed.added(name))
         low, high = _interval(analysis, after)
         out[name] = OutputFit(
             noise_floor=white_noise(after) if data.time is not None else float("nan"),
@@ -118,9 +117,9 @@ def held_out_condition(data: Data) -> tuple[str, Array | None]:
 
 
 def _condition(analysis: Analysis, rows: Array) -> dict[str, Array] | None:
-    """Return residuals in the condition with parameters fitted to the sweeps that do not enter it."""
+    """Return residuals with parameters fitted to the sweeps that do not enter the condition."""
     if not analysis.fit.labels:
-        return {o: r[rows] for o, r in residual(analysis.data, analysis.fit.changes).items()}
+        return residual(analysis.data, analysis.fit.changes)
     count = analysis.system.count
     touched = np.bincount(analysis.block, rows.astype(float), count) > 0
     after = residual(analysis.data, analysis.fit.changes)
@@ -131,4 +130,4 @@ def _condition(analysis: Analysis, rows: Array) -> dict[str, Array] | None:
     if touched.all() or not touched.any():
         return None
     delta = step_without(analysis.fit, touched) - step_without(analysis.fit, np.zeros(count, bool))
-    return {o: after[o][rows] - analysis.fit.columns[o][rows] @ delta for o in after}
+    return {o: after[o] - analysis.fit.columns[o] @ delta for o in after}

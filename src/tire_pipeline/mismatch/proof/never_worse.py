@@ -6,7 +6,7 @@ It can withhold a correction or a part of it, never choose a name.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -35,11 +35,19 @@ class Guarded:
     left : dict of ndarray, shape (n,)
         Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
         by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
+    agreed : dict of ndarray, shape (n,)
+        Output -> share of the effects' change on which the likely explanations agree, 0 to 1; all of it
+        where an output is left out.
     """
 
     fit: Fit
     part: float
     left: dict[str, Array]
+    agreed: Mapping[str, Array] = field(default_factory=dict)
+
+    def added(self, output: str) -> Array | float:
+        """Return the share of the effects' change that is added, at each sample."""
+        return self.part * self.agreed.get(output, 1.0)
 
 
 def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:

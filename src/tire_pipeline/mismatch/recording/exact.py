@@ -136,6 +136,10 @@ def open_axes(
     if signs:
         stated = tuple(f.text for f in signs)
         why = f"the recording agrees with the model only in other axes ({'; '.join(stated)})"
+        if any(_as_mirrored(f, "camber" in arrays) for f in signs):
+            return Question(
+                f"{why}, or is of a tire of the other side", _SIDE_OF_FILE + _READ_AGAIN, stated=stated
+            )
         return Question(why, _READ_AGAIN, stated=stated)
     known = arrays if time is None else {**arrays, "time": time}
     some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
@@ -154,6 +158,16 @@ def open_axes(
     return None
 
 
+def _as_mirrored(finding: Finding, camber: bool) -> bool:
+    """Whether a mirrored tire looks the same: all that acts to one side acts to the other one.
+
+    ``camber``: whether it was recorded, and would tell.
+    """
+    mirrored = {"slip_angle", "camber", "fy"} if camber else {"slip_angle", "fy"}
+    return mirrored in (set(finding.channel.split(", ")), *map(set, finding.alike))
+
+
+_SIDE_OF_FILE = "see that the file is of the side on which the tire was mounted (TYRESIDE), "
 _READ_AGAIN = (
     'read the file with axes="ISO", "SAE" or "adapted SAE", whichever holds, or turn the channel at its '
     "source, and explain again"

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import OPERATING_CHANNELS
+from tire_pipeline.mismatch.corrected.agreed import share_agreed
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.going_on import going_on
 from tire_pipeline.mismatch.corrected.later_sweeps import confirmed_later
@@ -125,14 +126,14 @@ def assembled(it: Explained) -> MismatchReport:
     put_in = allowed.fit
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    moments = prove_moments(inside, allowed.part)
+    moments = prove_moments(inside, allowed)
     spared = made_worse(moments)
     model = replace(model, as_filed=tuple(spared))
     if spared:
-        moments |= {o: f for o, f in prove_moments(inside, 0.0).items() if o in spared}
-    proved = {**prove(inside, allowed.left, noise, allowed.part), **moments}
+        moments |= {o: f for o, f in prove_moments(inside, replace(allowed, part=0.0)).items() if o in spared}
+    proved = {**prove(inside, allowed, noise), **moments}
     spoiled = any(finding.bad is not None for finding in prepared.findings)
-    fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
+    fit = as_recorded(proved, inside, allowed, model, it.recording, prepared.rows, spoiled)
     moment = moment_error(analysis, fit)
     unnamed, model = put_in_equations(
         analysis,
@@ -189,7 +190,7 @@ def assembled(it: Explained) -> MismatchReport:
             *filter(None, [_searched(it), _to_one_side(it, put_in), not_looked_for(analysis.absent)]),
         ],
         candidates=_candidates(analysis, answer),
-        series=_series(analysis, noise, model.part) | moment_series(analysis, model, moment),
+        series=_series(analysis, noise, allowed) | moment_series(analysis, model, moment),
         assumed=prepared.assumed,
         find_visible=list
         if prepared.stopped
@@ -268,6 +269,8 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Gu
     if allowed.fit.names and not _no_worse(it, model, plain):
         nothing = it.analysis.fit.part([], it.analysis.system)
         return plain, Guarded(nothing, 1.0, residual(it.analysis.data, []))
+    agreed = share_agreed(it.analysis.data, model.changes, model.instead, model.moments)
+    allowed = replace(allowed, agreed=agreed)
     later = partial(confirmed_later, it.analysis, allowed.fit)
     return replace(model, going_on=going_on(it.prepared.data, model.changes, it.rolled, later)), allowed
 
@@ -379,7 +382,7 @@ def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
     return out
 
 
-def _series(analysis: Analysis, noise: Mapping[str, float], part: float) -> dict[str, Any]:
+def _series(analysis: Analysis, noise: Mapping[str, float], allowed: Guarded) -> dict[str, Any]:
     """Arrays for the page's figures."""
     data = analysis.data
     step = max(1, data.size // ENOUGH_ROWS)
@@ -392,6 +395,6 @@ def _series(analysis: Analysis, noise: Mapping[str, float], part: float) -> dict
     }
     for o in data.outputs:
         out[f"before_{o}"] = before[o][::step]
-        out[f"after_{o}"] = partly(before[o], after[o], part)[::step]
+        out[f"after_{o}"] = partly(before[o], after[o], allowed.added(o))[::step]
         out[f"floor_{o}"] = noise[o]
     return out

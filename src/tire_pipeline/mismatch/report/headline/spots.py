@@ -121,18 +121,21 @@ def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
 def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
     """Return the axes of which an effect covers a part only: what drives it, if that varies.
 
-    Else the time, if the effect is seen in a part of it, and of the channels that it may depend on the one of
-    which it covers the least.
+    Else the time, if the effect is seen in a part of it or follows the clock, and of the channels that it may
+    depend on the one of which it covers the least. A sensor that follows the clock depends on none: loads and
+    cambers are stepped in time, so a drift is largest at those that were recorded last.
     """
-    drivers = _drivers(effect, ranges)
-    depends_on = drivers or (*SLIP_AND_LOAD, *catalogue()[effect.name].used)
+    drivers, cause = _drivers(effect, ranges), catalogue()[effect.name]
+    if cause.by_clock and cause.kind == "artefact":
+        return ["time"] if "time" in ranges else []
+    depends_on = drivers or (*SLIP_AND_LOAD, *cause.used)
     parts = {
         axis: (high - low) / (ranges[axis][1] - ranges[axis][0])
         for axis, (low, high) in effect.where.items()
         if axis in depends_on and axis in ranges and ranges[axis][1] > ranges[axis][0]
     }
     narrow = [axis for axis, part in parts.items() if part < MORE_THAN_HALF and part == min(parts.values())]
-    return (["time"] if stretches_of(effect, ranges) else []) + narrow[:1]
+    return (["time"] if cause.by_clock or stretches_of(effect, ranges) else []) + narrow[:1]
 
 
 def _to_both_sides(
