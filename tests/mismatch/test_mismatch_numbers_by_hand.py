@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 SCRIPT = Path(__file__).parents[2] / "tools" / "numbers_by_hand.py"
-MOST = 107
+MOST = 99
 """As docs/decisions/explanation_engine.md says; the goal is ten."""
 
 
