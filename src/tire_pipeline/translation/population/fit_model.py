@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.progress import track
+from tire_pipeline.tire_table import told_tires
 from tire_pipeline.translation.curves.space import PARTS, CurveSpace
 from tire_pipeline.translation.population.category_spread import (
     FEWEST_SHARED,
@@ -23,7 +24,12 @@ from tire_pipeline.translation.population.fit_space import Cells, fit_curve_spac
 from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
 from tire_pipeline.translation.population.metadata import Metadata
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
-from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
+from tire_pipeline.translation.population.model import (
+    POPULATION,
+    CurveMixedModel,
+    design_blocks,
+    members,
+)
 from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols, days_of
 from tire_pipeline.translation.population.protocols.search import Dated, find_changes
 
@@ -34,6 +40,7 @@ VARIANCE_GUESS = {
     "category": 0.1,
     "category_metadata": 0.01,
     "protocol": 0.03,
+    POPULATION: 0.03,
     "category_kind": 0.01,
     "class": 0.5,
     "category_class": 0.01,
@@ -68,7 +75,7 @@ CLASS_PARTS = {
 properties are taken to differ independently of each other: what links them is the class (latent
 class analysis)."""
 
-CLASS_BLOCKS = ("level", "metadata", "size", "category", "protocol")
+CLASS_BLOCKS = ("level", "metadata", "size", "category", "protocol", POPULATION)
 """The blocks of the model in which classes are looked for."""
 
 CHANGE_GROUPS = ("lateral", "longitudinal")
@@ -80,7 +87,7 @@ KIND_PARTS = ("cornering stiffness", "lateral friction")
 
 def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
     """One column for each tire that several categories measured, if these may be used."""
-    tires = cells["tire_id"].to_numpy(dtype=str)
+    tires = told_tires(cells)
     names, count = np.unique(tires, return_counts=True)
     shared = names[count > 1] if pairs else names[:0]
     return (tires[:, None] == shared[None, :]).astype(float)
@@ -201,6 +208,8 @@ def _prepare(
     code = np.zeros((len(rows), len(protocols.changes)))
     np.add.at(code, cells.cell, protocols.code(training))
     blocks = design_blocks(metadata, rows, category, categories, code / cells.files[:, None])
+    if tires.shape[1] >= FEWEST_SHARED:  # fewer do not tell what a supplier measures from what it makes
+        blocks[POPULATION] = members(category, categories) * (tires.sum(axis=1) == 0)[:, None]
     design = Design(blocks, tires, cells.files)
     classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
     if classes is not None:
