@@ -186,9 +186,11 @@ def _from_pairs(translator: Mapping[str, Any] | None) -> list[str]:
             "Tires that several organisations measured were used. They also tell how a supplier measures "
             "from what its own tires have in common."
         ]
-    few = f"fewer than {FEWEST_SHARED} such tires do not tell a supplier's tires from how it measures them"
     if translator["pairs"]:
-        return [f"Tires that several organisations measured were used, but {few}. {_TAKEN_FOR_BIAS}"]
+        return [
+            "Tires that several organisations measured were used. They do not show clearly that suppliers' "
+            f"own tires differ (fewer than {FEWEST_SHARED} never do). {_TAKEN_FOR_BIAS}"
+        ]
     if not translator["option_pairs"]:
         return [f"Tires that several organisations measured were not used, as asked for. {_TAKEN_FOR_BIAS}"]
     return [

@@ -68,7 +68,18 @@ def _log_odds(
     apart = fitted.mean[a] - fitted.mean[b]
     full = fitted.covariance
     after = full[np.ix_(a, a)] - full[np.ix_(a, b)] - full[np.ix_(b, a)] + full[np.ix_(b, b)]
+    return _zero_before_over_after(apart, after, before)
+
+
+def log_odds_of_block(fitted: Fitted, name: str, place: slice) -> float:
+    """Logarithm of the evidence for a block of weights on a score over that for none."""
+    before = np.full(place.stop - place.start, fitted.variances[name])
+    return _zero_before_over_after(fitted.mean[place], fitted.covariance[place, place], before)
+
+
+def _zero_before_over_after(mean: np.ndarray, covariance: np.ndarray, before: np.ndarray) -> float:
+    """Logarithm of the density at zero beforehand, with these variances, over that afterwards."""
     scale = np.sqrt(before)
-    factor = np.linalg.cholesky(after / np.outer(scale, scale) + 1e-9 * np.eye(scale.size))
-    move = np.linalg.solve(factor, apart / scale)
+    factor = np.linalg.cholesky(covariance / np.outer(scale, scale) + 1e-9 * np.eye(scale.size))
+    move = np.linalg.solve(factor, mean / scale)
     return float(np.log(np.diag(factor)).sum() + 0.5 * move @ move)
