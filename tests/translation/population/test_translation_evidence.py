@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from tire_pipeline.translation.population.evidence import CATEGORY_BLOCKS, _log_odds
+from tire_pipeline.translation.population.evidence import CATEGORY_BLOCKS, log_odds_of_difference
 from tire_pipeline.translation.population.mixed_effects import Design, fit_mixed_effects
 
 GUESS = {"level": 100.0, "category": 0.1, "category_metadata": 0.01, "population": 0.03}
@@ -45,14 +45,14 @@ def test_the_odds_are_the_density_of_an_equal_effect_before_over_after():
     after = contrast @ found.covariance @ contrast.T
     odds = multivariate_normal.logpdf(np.zeros(2), np.zeros(2), before)
     odds -= multivariate_normal.logpdf(np.zeros(2), contrast @ found.mean, after)
-    assert _log_odds(found, COLUMNS, 3, 1, 0) == pytest.approx(odds, abs=1e-6)
+    assert log_odds_of_difference(found, COLUMNS, 3, 1, 0) == pytest.approx(odds, abs=1e-6)
 
 
 def test_the_one_that_measures_as_the_target_is_told_from_one_that_does_not():
     odds = []
     for seed in range(8):
         found = _fit(*_measured(np.random.default_rng(seed), (0.0, 0.0, 0.6)))
-        odds.append([_log_odds(found, COLUMNS, 3, k, 0) for k in (1, 2)])
+        odds.append([log_odds_of_difference(found, COLUMNS, 3, k, 0) for k in (1, 2)])
     same, other = np.transpose(odds)
     assert np.median(same) < -0.5
     assert other.min() > 3.0

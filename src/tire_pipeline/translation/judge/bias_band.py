@@ -85,9 +85,9 @@ def measured_by_both(
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Return the curve features of n tires as their source and as the target measures them.
 
-    They differ by the bias alone, as far as the source probably has one. What a translation changes besides,
-    since a file's own noise is drawn towards what is usual of such a tire, says nothing of what the target
-    measures.
+    They differ by the bias alone: that of :data:`.effects.KEY_PARTS`, which have bands, and of others as far
+    as the source probably has one. What a translation changes besides, since a file's own noise is drawn
+    towards what is usual of such a tire, says nothing of what the target measures.
 
     Parameters
     ----------
@@ -102,5 +102,8 @@ def measured_by_both(
         By group, each (n, features).
     """
     _, rest = model.space.encode(rows)
-    there = found.source + found.differs * found.shift
+    weight = found.differs.copy()
+    for part in KEY_PARTS:
+        weight[:, model.space.slices[part]] = 1.0
+    there = found.source + weight * found.shift
     return model.space.features(found.source, rest), model.space.features(there, rest)

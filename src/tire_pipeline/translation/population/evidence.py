@@ -47,14 +47,16 @@ def probability_of_difference(
     for category in range(categories):
         if category == target:
             continue
-        odds = np.array([_log_odds(one, columns, categories, category, target) for one in fitted])
+        odds = np.array(
+            [log_odds_of_difference(one, columns, categories, category, target) for one in fitted]
+        )
         for place in space.slices.values():
             both = np.clip(odds[place].sum(), -_LARGEST_LOG_ODDS, _LARGEST_LOG_ODDS)
             probability[category, place] = expit(both)
     return probability
 
 
-def _log_odds(
+def log_odds_of_difference(
     fitted: Fitted, columns: dict[str, slice], categories: int, category: int, target: int
 ) -> float:
     """Logarithm of the evidence for another effect of a category on a score over that for an equal one."""
