@@ -11,7 +11,7 @@ import pytest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tire_table import SIZE_KEYS, from_models, physical_tire_ids
+from tire_pipeline.tire_table import SIZE_KEYS, from_models, physical_tire_ids, told_tires
 from tire_pipeline.tire_table.from_models import ALWAYS
 
 BASE = {"FNOMIN": 4000.0, "UNLOADED_RADIUS": 0.3162, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20.0, "PKY2": 1.8}
@@ -127,6 +127,17 @@ def test_each_size_key_tells_tires_apart(key: str):
     rows.loc[1, key] += 0.001
     rows.loc[2, key] = np.nan
     assert physical_tire_ids(rows).nunique() == 3
+
+
+def test_a_file_without_a_mass_may_be_of_any_tire_of_its_size():
+    rows = pd.DataFrame([dict.fromkeys(SIZE_KEYS, 0.3)] * 4).assign(file=list("abcd"))
+    rows.loc[2:, "MASS"] = np.nan
+    rows["tire_id"] = physical_tire_ids(rows)
+    assert rows["tire_id"].nunique() == 2
+    told = told_tires(rows)
+    assert told[0] == told[1]
+    assert len(set(told)) == 3
+    assert (told_tires(rows.drop(columns="MASS")) == rows["tire_id"]).all()
 
 
 def test_tires_without_metadata_are_named_by_their_numbers():

@@ -156,7 +156,7 @@ def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
 
 def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
     rows = hidden.head(4).copy()
-    rows.iloc[0, rows.columns.get_loc("PKY1")] *= 1.25
+    rows.iloc[0, rows.columns.get_loc("PKY1")] *= 1.35
     usual = paired.translation(rows)
     distance = usual.report["distance"].to_numpy()
     assert 1.0 < distance[0] < 3.0

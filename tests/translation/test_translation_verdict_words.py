@@ -16,7 +16,7 @@ from tire_pipeline.translation.judge.words import describe_bias
 def said(**changed: float) -> str:
     """What is said of a tire as its source measures it, and as the target does."""
     before, after = (encode(pd.DataFrame([{**TIRE, **more}])) for more in ({}, changed))
-    return describe_bias(before, after, np.array(["A"]), "D")[0]
+    return describe_bias(before, after, np.ones((1, 4), dtype=bool), np.array(["A"]), "D")[0]
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from tire_pipeline.tire_table.dedupe import (
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models, join_tables
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces
 from tire_pipeline.tire_table.normalize import normalize_table
-from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids
+from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids, told_tires
 from tire_pipeline.tire_table.splits import random_split, split_by_tire, split_table
 
 __all__ = [
@@ -40,5 +40,6 @@ __all__ = [
     "random_split",
     "split_by_tire",
     "split_table",
+    "told_tires",
     "usable_files",
 ]

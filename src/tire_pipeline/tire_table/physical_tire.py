@@ -1,4 +1,4 @@
-"""Which files are measurements of one physical tire."""
+"""Which files are measurements of one physical tire, or may be."""
 
 from __future__ import annotations
 
@@ -48,6 +48,24 @@ def physical_tire_ids(table: pd.DataFrame) -> pd.Series:
     if nameless.any():
         names[nameless] = _names_by_numbers(table.loc[nameless])
     return pd.Series(names, index=table.index, dtype="str", name="tire_id")
+
+
+def told_tires(table: pd.DataFrame) -> np.ndarray:
+    """Name the physical tire of each row as far as its file tells it, shape (n,).
+
+    ``tire_id`` keeps files apart that may be of one tire: splits need that. Whoever takes files of one name
+    for measurements of one tire needs the opposite. A file that does not state its mass may be of any tire of
+    its size, so it is a tire of its own here.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Has ``tire_id``, and ``file`` where it has the column ``MASS``.
+    """
+    names = table["tire_id"].astype(str).to_numpy(dtype=str)
+    if "MASS" not in table:
+        return names
+    return np.where(table["MASS"].isna(), table["file"].astype(str) + " alone", names).astype(str)
 
 
 def _name(steps: np.ndarray) -> str:

@@ -12,11 +12,12 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 
-VERSION = "4"
+VERSION = "5"
 """Version of the translators, written into every translated file: another one where the same training files
 give another translation. 2: stiffness and shape are combined (:mod:`.population.fit_links`); 3:
 categories spread stiffness alike (:data:`.population.fit_model.SPREAD_WIDTH`); 4: spreads are bounded, and
-translators that learn from the batch."""
+translators that learn from the batch; 5: what a supplier's own tires have in common is no bias, and a
+property is changed as far as the supplier probably measures it otherwise (:mod:`.population.evidence`)."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"

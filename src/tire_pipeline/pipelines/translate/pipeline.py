@@ -77,6 +77,7 @@ def _drawing() -> Node:
             "demonstration_files",
             "params:translate",
             "params:target_category",
+            "translator",
         ],
         outputs=["translation_list", "translation_outcome"],
         name="draw_translated_files",

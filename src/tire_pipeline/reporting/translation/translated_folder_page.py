@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 import pandas as pd
 
@@ -18,6 +19,8 @@ from tire_pipeline.reporting.translation.translated_files_page import translated
 from tire_pipeline.reporting.translation.translated_rows import listed, median_expected
 from tire_pipeline.translation.files.translated_block import curves_in, has_tables, table_in
 from tire_pipeline.translation.parameters import TranslateParameters
+from tire_pipeline.translation.population.category_spread import FEWEST_SHARED
+from tire_pipeline.translation.population.model import POPULATION
 from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
 _PROTOCOLS = (
@@ -37,6 +40,7 @@ def translate_page(
     demonstration_files: list[str],
     parameters: TranslateParameters,
     target: str,
+    translator: Mapping[str, Any] | None = None,
 ) -> tuple[PageInPieces, list[str]]:
     """Draw every file on one page, and say how many were translated.
 
@@ -51,6 +55,8 @@ def translate_page(
         Files that are not the user's own.
     parameters : TranslateParameters
     target : str
+    translator : mapping, optional
+        State of the fitted translator: tells what it knows from tires that several organisations measured.
 
     Returns
     -------
@@ -67,7 +73,7 @@ def translate_page(
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
         tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
     tables.insert(0, Table(_WHAT_VERDICTS_MEAN, "", heading="What the verdicts mean"))
-    notes = _notes(rows, parameters)
+    notes = [*_notes(rows, parameters), *_from_pairs(translator)]
     return translated_page(
         f"Translated to {target}", outcome, rows, drawn, tables=tables, notes=notes
     ), outcome
@@ -165,14 +171,41 @@ _WHAT_VERDICTS_MEAN = pd.DataFrame(
 )
 
 
+_TAKEN_FOR_BIAS = (
+    "If a supplier's own tires are stiffer or have more grip than those of the target, that counts as bias, "
+    "and no band contains it."
+)
+
+
+def _from_pairs(translator: Mapping[str, Any] | None) -> list[str]:
+    """What tires that several organisations measured told, and what is assumed where they are few."""
+    if translator is None or "variance_names" not in translator:
+        return []
+    if POPULATION in translator["variance_names"]:
+        return [
+            "Tires that several organisations measured were used. They also tell how a supplier measures "
+            "from what its own tires have in common."
+        ]
+    if translator["pairs"]:
+        return [
+            "Tires that several organisations measured were used. They do not show clearly that suppliers' "
+            f"own tires differ (fewer than {FEWEST_SHARED} never do). {_TAKEN_FOR_BIAS}"
+        ]
+    if not translator["option_pairs"]:
+        return [f"Tires that several organisations measured were not used, as asked for. {_TAKEN_FOR_BIAS}"]
+    return [
+        "No tire was measured by several organisations, as far as the sizes, radii and masses in the files "
+        f"tell. {_TAKEN_FOR_BIAS}"
+    ]
+
+
 def _notes(rows: RowsOnDisk, parameters: TranslateParameters) -> list[str]:
     """How it was done, for below the files."""
     reach = "distance 1, the edge of the training data"
     if parameters.farthest != EDGE:
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
     lines = [
-        f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
-        + ("used." if parameters.pairs else "not used."),
+        f"Method: {parameters.translator.replace('_', ' ')}.",
         f"Only translated files are written, none beyond {reach}. Errors are RMS of side and longitudinal "
         "force; the aligning torque is translated, but is not among them.",
     ]

@@ -39,6 +39,11 @@ class BiasBand:
         return np.all((self.low <= 0.0) & (self.high >= 0.0), axis=1)
 
     @property
+    def excludes_zero(self) -> np.ndarray:
+        """Whether the band of each part tells the sign of its bias, (n, parts)."""
+        return (self.low > 0.0) | (self.high < 0.0)
+
+    @property
     def negligible(self) -> np.ndarray:
         """Whether all bands contain zero, and nothing that is not negligible, (n,)."""
         widest = np.maximum(-self.low, self.high).max(axis=1)
@@ -80,7 +85,8 @@ def measured_by_both(
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Return the curve features of n tires as their source and as the target measures them.
 
-    They differ by the bias alone. What a translation changes besides, since a file's own noise is drawn
+    They differ by the bias alone: that of :data:`.effects.KEY_PARTS`, which have bands, and of others as far
+    as the source probably has one. What a translation changes besides, since a file's own noise is drawn
     towards what is usual of such a tire, says nothing of what the target measures.
 
     Parameters
@@ -96,4 +102,8 @@ def measured_by_both(
         By group, each (n, features).
     """
     _, rest = model.space.encode(rows)
-    return model.space.features(found.source, rest), model.space.features(found.source + found.shift, rest)
+    weight = found.differs.copy()
+    for part in KEY_PARTS:
+        weight[:, model.space.slices[part]] = 1.0
+    there = found.source + weight * found.shift
+    return model.space.features(found.source, rest), model.space.features(there, rest)

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.tire_table import told_tires
 from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.population.fit_model import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
@@ -58,6 +59,7 @@ def leave_one_tire_out(
     """
     training = training.reset_index(drop=True)
     made = made or prepare(training, pairs=pairs)
+    made = replace(made, rows=made.rows.assign(tire_id=told_tires(made.rows)))
     full = model or fit_curve_mixed_model(training, pairs=pairs, made=made)
     own = set(made.rows.loc[made.rows["category"] == target, "tire_id"])
     shared = sorted(own & set(made.rows.loc[made.rows["category"] != target, "tire_id"]))

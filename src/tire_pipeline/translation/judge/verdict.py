@@ -197,7 +197,9 @@ class VerdictRules:
             if verdict[i] == TRANSLATED and loads[i]:
                 reason[i] += f"; {loads[i]}: compare its curves there before you use the file"
         before, after = measured_by_both(model, rows, found)
-        said = np.array(describe_bias(before, after, organisations, self.target), dtype=object)
+        said = np.array(
+            describe_bias(before, after, band.excludes_zero, organisations, self.target), dtype=object
+        )
         said[verdict != TRANSLATED] = ""
         told = ~(self.gate & (distance > self.farthest))  # bands were tested on tires within reach only
         return pd.DataFrame(

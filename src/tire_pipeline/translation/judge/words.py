@@ -21,7 +21,11 @@ _WHY = {
 
 
 def describe_bias(
-    before: dict[str, np.ndarray], after: dict[str, np.ndarray], source: np.ndarray, target: str
+    before: dict[str, np.ndarray],
+    after: dict[str, np.ndarray],
+    sure: np.ndarray,
+    source: np.ndarray,
+    target: str,
 ) -> list[str]:
     """Say for each file what the target measures differently, and what that usually comes from.
 
@@ -30,6 +34,9 @@ def describe_bias(
     before, after : dict of ndarray
         Features by group of each tire as its source and as the target measures it
         (:func:`.bias_band.measured_by_both`).
+    sure : ndarray of bool, shape (n, parts)
+        Of which stiffness and friction the band tells whether the target measures more or less
+        (:attr:`.bias_band.BiasBand.excludes_zero`); nothing is said of the others.
     source : ndarray of str, shape (n,)
         Source categories.
     target : str
@@ -48,9 +55,8 @@ def describe_bias(
     even, aligning, camber = _other_moves(before, after)
     said = []
     for i, organisation in enumerate(source):
-        sentences = [
-            s for name, move in moves.items() if (s := _sentence(name, move[i], str(organisation), target))
-        ]
+        told = [name for k, name in enumerate(moves) if sure[i, k]]
+        sentences = [s for name in told if (s := _sentence(name, moves[name][i], str(organisation), target))]
         if abs(even[i]) > _LEAST_CHANGE:
             more = "more" if even[i] > 0 else "less"
             sentences.append(

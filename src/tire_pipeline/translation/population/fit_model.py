@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.progress import track
+from tire_pipeline.tire_table import told_tires
 from tire_pipeline.translation.curves.space import PARTS, CurveSpace
 from tire_pipeline.translation.population.category_spread import (
     FEWEST_SHARED,
@@ -19,33 +20,26 @@ from tire_pipeline.translation.population.classes.search import find_classes, wi
 from tire_pipeline.translation.population.classes.search_input import ClassSearchInput
 from tire_pipeline.translation.population.classes.tire_classes import TireClasses
 from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
+from tire_pipeline.translation.population.fit_scores import (
+    CLASS_PARTS,
+    VARIANCE_GUESS,
+    fit_score,
+    fit_scores,
+    makes_differ,
+    of_part,
+)
 from tire_pipeline.translation.population.fit_space import Cells, fit_curve_space
 from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
 from tire_pipeline.translation.population.metadata import Metadata
-from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
-from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
+from tire_pipeline.translation.population.mixed_effects import Design, Fitted
+from tire_pipeline.translation.population.model import (
+    POPULATION,
+    CurveMixedModel,
+    design_blocks,
+    members,
+)
 from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols, days_of
 from tire_pipeline.translation.population.protocols.search import Dated, find_changes
-
-VARIANCE_GUESS = {
-    "level": 100.0,
-    "metadata": 0.1,
-    "size": 0.05,
-    "category": 0.1,
-    "category_metadata": 0.01,
-    "protocol": 0.03,
-    "category_kind": 0.01,
-    "class": 0.5,
-    "category_class": 0.01,
-    "tire": 0.1,
-}
-"""Where the search for the variances begins, in units of a score's own variance."""
-
-TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 9.0}
-"""Variance of what one tire does in one category alone, over that of the noise, if no tire tells, by part.
-The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
-
-_OTHER_SHARE = 0.5
 
 SPREAD_WIDTH = {"stiffness": 0.02}
 """How far categories may differ in how they spread what is a tire's own, by part: standard deviation of a
@@ -54,21 +48,7 @@ kind tells (:mod:`.kinds`), and a few dozen tires tell a spread to 10% only."""
 
 _OTHER_WIDTH = 0.2
 
-_POOLED_VARIANCES = ("category", "category_metadata", "category_kind", "category_class")
-_POOLED_WIDTH = 1.0
-_PRIOR_WIDTH = 3.0
-
-CLASS_PARTS = {
-    "cornering stiffness": 0,
-    "lateral friction": 1,
-    "slip stiffness": 2,
-    "longitudinal friction": 1,
-}
-"""The parts whose scores tell classes of tires apart, and the property that each is of. Within a class
-properties are taken to differ independently of each other: what links them is the class (latent
-class analysis)."""
-
-CLASS_BLOCKS = ("level", "metadata", "size", "category", "protocol")
+CLASS_BLOCKS = ("level", "metadata", "size", "category", "protocol", POPULATION)
 """The blocks of the model in which classes are looked for."""
 
 CHANGE_GROUPS = ("lateral", "longitudinal")
@@ -80,7 +60,7 @@ KIND_PARTS = ("cornering stiffness", "lateral friction")
 
 def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
     """One column for each tire that several categories measured, if these may be used."""
-    tires = cells["tire_id"].to_numpy(dtype=str)
+    tires = told_tires(cells)
     names, count = np.unique(tires, return_counts=True)
     shared = names[count > 1] if pairs else names[:0]
     return (tires[:, None] == shared[None, :]).astype(float)
@@ -107,7 +87,7 @@ def fit_curve_mixed_model(
     CurveMixedModel
     """
     made = made or prepare(training, pairs=pairs, kinds=kinds)
-    fitted = _fit_scores(made.design, made.cells, made.space, made.scale)
+    fitted = fit_scores(made.design, made.cells, made.space, made.scale)
     return made.model(fitted)
 
 
@@ -202,6 +182,11 @@ def _prepare(
     np.add.at(code, cells.cell, protocols.code(training))
     blocks = design_blocks(metadata, rows, category, categories, code / cells.files[:, None])
     design = Design(blocks, tires, cells.files)
+    if tires.shape[1] >= FEWEST_SHARED:  # fewer do not tell what a supplier measures from what it makes
+        alone = members(category, categories) * (tires.sum(axis=1) == 0)[:, None]
+        apart = Design({**blocks, POPULATION: alone}, tires, cells.files)
+        design = apart if makes_differ(apart, cells, space, scale) else design
+        blocks = design.blocks
     classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
     if classes is not None:
         design = Design(with_classes(blocks, classes.coded(probability)), tires, cells.files)
@@ -224,7 +209,7 @@ def _protocols(training: pd.DataFrame, made: PreparedTraining) -> Protocols:
     gap = np.zeros_like(made.cells.scores)
     searched = np.concatenate([np.arange(s.start, s.stop) for s in parts.values()])
     for k in track(searched, "looking for changes of protocol"):
-        one = _fit_score(made.design, made.cells, made.space, made.scale, k, VARIANCE_GUESS)
+        one = fit_score(made.design, made.cells, made.space, made.scale, k, VARIANCE_GUESS)
         gap[:, k] = made.cells.scores[:, k] / made.scale[k] - x @ one.mean[: x.shape[1]]
     dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, made.cells.cell)
     return Protocols(find_changes(dated, parts))
@@ -245,7 +230,7 @@ def _classes(
     blocks = {name: design.blocks[name] for name in CLASS_BLOCKS if name in design.blocks}
     plain = Design(blocks, design.tire, design.files)
     fitted = [
-        _fit_score(plain, cells, space, scale, k, VARIANCE_GUESS, alone_known=True)
+        fit_score(plain, cells, space, scale, k, VARIANCE_GUESS, alone_known=True)
         for k in track(telling, "fitting what tells classes of tires")
     ]
     linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
@@ -262,56 +247,6 @@ def _classes(
         kind[:, None] == kind[None, :],
     )
     return find_classes(question)
-
-
-def _of_part(space: CurveSpace, k: int, values: dict[str, float], other: float) -> float:
-    """Value of the part that score ``k`` belongs to, by a word of its name."""
-    part = next(name for name, place in space.slices.items() if place.start <= k < place.stop)
-    return next((value for word, value in values.items() if word in part), other)
-
-
-def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray) -> tuple[Fitted, ...]:
-    """Fit every score twice: the second time the size of the bias is expected as it was found in all of them.
-
-    Six categories tell little about the variance of their effects on one score; all scores together do.
-    """
-    numbers = track(range(scale.size), "fitting each property of the curves")
-    first = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in numbers]
-    noise = space.noise / scale**2
-    common = {
-        name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
-        for name in _POOLED_VARIANCES
-        if name in first[0].variances
-    }
-    guesses = [{**VARIANCE_GUESS, **{name: common[name] * one for name in common}} for one in noise]
-    again = track(guesses, "fitting each with what all have in common")
-    return tuple(
-        _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(again)
-    )
-
-
-def _fit_score(
-    design: Design,
-    cells: Cells,
-    space: CurveSpace,
-    scale: np.ndarray,
-    k: int,
-    guess: dict[str, float],
-    pooled: tuple[str, ...] = (),
-    alone_known: bool = False,
-) -> Fitted:
-    noise = float(space.noise[k] / scale[k] ** 2)
-    alone = _of_part(space, k, TIRE_CATEGORY_SHARE, _OTHER_SHARE) * noise
-    guess = {**guess, "tire_category": alone}
-    estimated = design.tire.shape[1] >= FEWEST_SHARED and not alone_known
-    return fit_mixed_effects(
-        design,
-        cells.scores[:, k] / scale[k],
-        noise=noise,
-        guess=guess,
-        width={name: _POOLED_WIDTH if name in pooled else _PRIOR_WIDTH for name in guess},
-        tire_category=None if estimated else alone,
-    )
 
 
 def own_and_links(
@@ -350,7 +285,7 @@ def own_and_links(
     spread, alone = (np.ones((categories, len(fitted))) for _ in range(2))
     for k, one in enumerate(fitted):
         residuals = Residuals(gaps[:, k], category, one.variances["noise"] / files, place)
-        width = _of_part(space, k, SPREAD_WIDTH, _OTHER_WIDTH)
+        width = of_part(space, k, SPREAD_WIDTH, _OTHER_WIDTH)
         spread[:, k], alone[:, k] = category_spreads(
             residuals, one.variances["tire"], one.variances["tire_category"], width
         )
@@ -388,7 +323,7 @@ def _kinds(
     """
     chosen = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in KIND_PARTS)])
     told = track(chosen, "fitting what tells kinds of tires")
-    fitted = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in told]
+    fitted = [fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in told]
     ends = np.cumsum([block.shape[1] for block in design.blocks.values()])
     of_tire = np.concatenate(
         [np.full(block.shape[1], name in TIRE_BLOCKS) for name, block in design.blocks.items()]

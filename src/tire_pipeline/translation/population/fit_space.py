@@ -15,7 +15,7 @@ from scipy.linalg import eigh
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
-from tire_pipeline.tire_table import LARGEST_TO_SQUARE
+from tire_pipeline.tire_table import LARGEST_TO_SQUARE, told_tires
 from tire_pipeline.translation.curves.features import encode
 from tire_pipeline.translation.curves.space import PARTS, UNIT, CurveSpace
 from tire_pipeline.translation.population.metadata import Metadata
@@ -84,7 +84,7 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     DomainError
         If a tire's curves cannot be evaluated.
     """
-    key = table["category"].astype(str) + "|" + table["tire_id"].astype(str)
+    key = table["category"].astype(str) + "|" + told_tires(table)
     _, row, cell = np.unique(key.to_numpy(dtype=str), return_index=True, return_inverse=True)
     over = _over_pressure(table)
     known = _known(table.iloc[row])

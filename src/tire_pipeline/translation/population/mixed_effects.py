@@ -17,6 +17,9 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import minimize
 
+NOT_BLOCKS = ("tire", "tire_category", "noise")
+"""Variances that are of no block of the design."""
+
 _FLAT = 100.0
 _LOW, _HIGH = np.log(1e-6), np.log(50.0)
 

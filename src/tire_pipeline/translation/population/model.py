@@ -22,12 +22,17 @@ from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.population.classes.search import with_classes
 from tire_pipeline.translation.population.classes.search_input import per_tire
 from tire_pipeline.translation.population.classes.tire_classes import TireClasses
+from tire_pipeline.translation.population.evidence import CATEGORY_BLOCKS, probability_of_difference
 from tire_pipeline.translation.population.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
 from tire_pipeline.translation.population.metadata import Metadata
-from tire_pipeline.translation.population.mixed_effects import Fitted
+from tire_pipeline.translation.population.mixed_effects import NOT_BLOCKS, Fitted
 from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols
 from tire_pipeline.translation.population.score_prediction import CategoryReading, predict_block
+
+POPULATION = "population"
+"""Block of what the tires that only one category measured have in common, beside its way of measuring: a
+supplier measures its own tires. It is told from the bias by tires that several categories measured."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,8 @@ class Prediction:
         Probability of each class of tire.
     taught : ndarray, shape (n,)
         By how many files of other tires in the same batch: 0 but for :mod:`.predict.batch`.
+    differs : ndarray
+        Probability that the source measures otherwise than the target (:mod:`.evidence`).
     """
 
     source: np.ndarray
@@ -65,6 +72,7 @@ class Prediction:
     expected: np.ndarray
     classes: np.ndarray
     taught: np.ndarray
+    differs: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -117,6 +125,8 @@ class CurveMixedModel:
         ``protocol`` is the protocols' code, (n, changes), see :class:`.protocols.of_files.Protocols`.
         """
         blocks = design_blocks(self.metadata, table, category, self.categories, protocol)
+        if POPULATION in self._blocks:
+            blocks[POPULATION] = members(table["category"].to_numpy(dtype=str), self.categories)
         if self.classes is None:
             return [blocks]
         codes = self.classes.coded(np.eye(self.classes.count))
@@ -245,7 +255,27 @@ class CurveMixedModel:
             expected * self.scale,
             likely,
             np.zeros(len(table)),
+            self.probability_of_difference(target)[place],
         )
+
+    def probability_of_difference(self, target: str) -> np.ndarray:
+        """How probably each category measures otherwise than ``target``, (categories, p).
+
+        One whose way of measuring changed, or all if the target's did, certainly do.
+        """
+        columns = {name: columns_of(self, name) for name in CATEGORY_BLOCKS if name in self._blocks}
+        place = self.categories.index(target)
+        found = probability_of_difference(self.fitted, self.space, columns, len(self.categories), place)
+        changed = {change.category for change in self.protocols.changes}
+        for k, name in enumerate(self.categories):
+            if k != place and changed & {name, target}:
+                found[k] = 1.0
+        return found
+
+    @property
+    def _blocks(self) -> list[str]:
+        """The blocks of the design, in their order."""
+        return [name for name in self.fitted[0].variances if name not in NOT_BLOCKS]
 
     def to_state(self) -> dict[str, Any]:
         """Return the arrays, strings and numbers that restore it."""
@@ -296,14 +326,22 @@ class CurveMixedModel:
 
 
 def columns_of(model: CurveMixedModel, block: str) -> slice:
-    """Where the weights of ``category``, ``category_metadata`` or ``protocol`` stand."""
+    """Where the weights of a block stand."""
     d, organisations = len(model.metadata.names), len(model.categories)
+    classes = model.classes.count if model.classes else 0
     widths = {
+        "level": 1,
+        "metadata": d,
+        "size": len(model.metadata.sizes),
         "category": organisations,
         "category_metadata": organisations * d,
         "protocol": len(model.protocols.changes),
+        POPULATION: organisations if POPULATION in model._blocks else 0,
+        "class": classes,
+        "category_class": organisations * classes,
+        "category_kind": organisations * (model.kinds.turn.shape[1] if model.kinds else 0),
     }
-    start = 1 + d + len(model.metadata.sizes)
+    start = 0
     for name, width in widths.items():
         if name == block:
             return slice(start, start + width)
@@ -321,10 +359,10 @@ def design_blocks(
     """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns).
 
     ``protocol`` (n, changes) is what :class:`.protocols.of_files.Protocols` gives; left out without columns.
-    :func:`.classes.search.with_classes` and :func:`.kinds.with_kinds` add theirs.
+    :data:`POPULATION`, :func:`.classes.search.with_classes` and :func:`.kinds.with_kinds` come after these.
     """
     x = metadata.regressors(table)
-    organisation = (category[:, None] == np.array(categories)[None, :]).astype(float)
+    organisation = members(category, categories)
     return {
         "level": np.ones((len(table), 1)),
         "metadata": x,
@@ -333,3 +371,8 @@ def design_blocks(
         "category_metadata": (organisation[:, :, None] * x[:, None, :]).reshape(len(organisation), -1),
         **({"protocol": protocol} if protocol.shape[1] else {}),
     }
+
+
+def members(category: np.ndarray, categories: tuple[str, ...]) -> np.ndarray:
+    """Indicators of the categories, (n, categories)."""
+    return (category[:, None] == np.array(categories)[None, :]).astype(float)

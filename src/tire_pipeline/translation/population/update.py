@@ -16,6 +16,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.tire_table import told_tires
 from tire_pipeline.translation.population.category_spread import FREEDOM
 from tire_pipeline.translation.population.classes.search_input import per_tire
 from tire_pipeline.translation.population.fit_model import PreparedTraining, own_and_links
@@ -71,7 +72,7 @@ class TaughtCells:
         """
         source, _ = model.space.encode(table)
         category = table["category"].to_numpy(dtype=str)
-        names = table["tire_id"].astype(str)
+        names = pd.Series(told_tires(table), table.index)
         cell = pd.factorize(category + "|" + names)[0]
         alike = pd.factorize(names)[0] if model.pairs else cell
         every = model.regressors(model.blocks(table, category, model.protocols.code(table)))

@@ -17,10 +17,11 @@ ODD_TORQUE = 2.5
 
 def shortened(model: CurveMixedModel, found: Prediction) -> Prediction:
     """Shorten the move of each part by how uncertain it is: positive-part shrinkage (Stein) towards no
-    change.
+    change, and by the probability that the source measures otherwise than the target at all.
 
-    The shrinkage of the mixed model rests on variances that six categories tell little about; this one takes
-    each file's move and the variance of its estimate.
+    The shrinkage of the mixed model rests on variances that six categories tell little about, and that all of
+    them share; this one takes each file's move and the variance of its estimate, and what the training files
+    say of its own category.
 
     Parameters
     ----------
@@ -37,7 +38,9 @@ def shortened(model: CurveMixedModel, found: Prediction) -> Prediction:
         size = (found.shift[:, place] ** 2).sum(axis=1)
         variance = found.shift_variance[:, place].sum(axis=1)
         share = VARIANCE_WEIGHT * variance / np.maximum(size + VARIANCE_WEIGHT * variance, 1e-12)
-        target[:, place] -= share[:, None] * found.shift[:, place]
+        moved = target[:, place] - share[:, None] * found.shift[:, place]
+        source, differs = found.source[:, place], found.differs[:, place]
+        target[:, place] = source + differs * (moved - source)
     return replace(found, target=target)
 
 
