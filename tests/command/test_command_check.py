@@ -30,11 +30,11 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
     assert "<svg" in page(folder / "run_check.html")
     pd.read_csv("run.csv").drop(columns="fy").to_csv("none.csv", index=False)
     assert "cannot be explained" in run("check", "none.csv", "--no-page", code=1).stdout
-    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Querkraft"})
+    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Kraft_y"})
     renamed["slip_angle"] = np.degrees(renamed["slip_angle"])
     renamed.to_csv("own.csv", index=False)
-    own = told("check", "own.csv", "--name", "Querkraft=fy", "--unit", "slip_angle=deg", "--no-page")
-    assert own["channels"]["fy"]["channel"] == "Querkraft"
+    own = told("check", "own.csv", "--name", "Kraft_y=fy", "--unit", "slip_angle=deg", "--no-page")
+    assert own["channels"]["fy"]["channel"] == "Kraft_y"
     assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
 
 

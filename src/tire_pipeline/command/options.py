@@ -104,7 +104,7 @@ def reading_options(function: F) -> F:
             "names",
             multiple=True,
             metavar="COLUMN=CHANNEL",
-            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated. A "
+            help="Which channel a column of the file is, such as --name Kraft_y=fy; can be repeated. A "
             "channel that no column holds may be a number: --name slip_angle=0. Of several recordings, "
             "--axes, --unit and --name hold for all, or for one: --unit run.csv:FY=kN.",
         ),
@@ -146,7 +146,7 @@ def read_runs(
             format=format_,
             axes=next(iter(reversed(stated(axes, "--axes"))), None),
             units=_pairs(stated(units, "--unit"), "--unit", "COLUMN=UNIT, such as SA=deg"),
-            names=_pairs(stated(names, "--name"), "--name", "COLUMN=CHANNEL, such as Querkraft=fy"),
+            names=_pairs(stated(names, "--name"), "--name", "COLUMN=CHANNEL, such as Kraft_y=fy"),
         )
     return runs
 

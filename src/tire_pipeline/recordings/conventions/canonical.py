@@ -270,7 +270,7 @@ def _check_told(names: Mapping[str, str], source: str) -> None:
                 todo=did_you_mean(
                     told,
                     [channel.name for channel in (*CANONICAL, *FURTHER)],
-                    "the file's name stands first and the channel second, such as Querkraft=fy; "
+                    "the file's name stands first and the channel second, such as Kraft_y=fy; "
                     "docs/reference/recordings.md lists the channels",
                 ),
             )
