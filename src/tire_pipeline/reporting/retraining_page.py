@@ -1,4 +1,4 @@
-"""The page of the last retraining."""
+"""The page of the last retraining or rollback."""
 
 from __future__ import annotations
 
@@ -51,6 +51,18 @@ def build_retraining_report(
         _history(registry),
     ]
     return render_page("Retraining", parts, pages=HOME)
+
+
+def build_rollback_report(registry: ModelRegistry) -> str:
+    """The same page after a rollback: which model is in use now, and the history."""
+    decided = Text(
+        [
+            *_decided(registry.release.last_event, registry),
+            "What came and what drifted stands on this page after the next `kedro run --pipeline retrain`.",
+        ],
+        emphasis=True,
+    )
+    return render_page("Retraining", [decided, _history(registry)], pages=HOME)
 
 
 def _comparison(comparison: pd.DataFrame) -> Table:
@@ -113,13 +125,14 @@ def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 
 def _decision(counts: Mapping[str, int], outcome: dict[str, Any], registry: ModelRegistry) -> Text:
     came = ", ".join(f"{count:,} {status}" for status, count in counts.items()) or "no change"
-    return Text(
-        [
-            f"{_HAPPENED.get(outcome['event'], outcome['event'])}: {outcome['reason']}.",
-            f"Model in use: {registry.release.current or 'none'}. Files since the last run: {came}.",
-        ],
-        emphasis=True,
-    )
+    happened, in_use = _decided(outcome, registry)
+    return Text([happened, f"{in_use} Files since the last run: {came}."], emphasis=True)
+
+
+def _decided(event: Mapping[str, Any], registry: ModelRegistry) -> tuple[str, str]:
+    """What happened and why, and which model is in use now."""
+    happened = _HAPPENED.get(event["event"], event["event"])
+    return f"{happened}: {event['reason']}.", f"Model in use: {registry.release.current or 'none'}."
 
 
 def _drift(drift: pd.DataFrame) -> list[Part]:
