@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import logging
+import os
 import sys
+import threading
+import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor
@@ -27,6 +30,8 @@ _DIED = "the process that did it died three times"
 _TODO_FOR_LOST_TASK = "take it out, or run where there is more memory"
 DEATHS = 3
 """How often the process of a task may die before the task is set aside."""
+_LOOKS_FOR_RUN_EVERY = 1.0
+"""s. How often a process of a run looks whether the run lives."""
 _WAITING: set[int] = set()
 """How many processes wait for more tasks."""
 
@@ -250,11 +255,31 @@ def _in_pool(
     _WAITING.add(count)
     parallel = Parallel(n_jobs=count, return_as="generator_unordered")
     yield from parallel(
-        delayed(attempt if steps or getattr(tasks[name], "steps", False) else attempt_in_silence)(
-            name, tasks[name]
-        )
+        delayed(_for_run)(os.getpid(), name, tasks[name], steps or getattr(tasks[name], "steps", False))
         for name in names
     )
+
+
+def _for_run(run: int, name: str, task: Task[_T], steps: bool) -> Done[_T]:
+    """Attempt a task in a process of a run's own."""
+    _end_with(run)
+    return attempt(name, task) if steps else attempt_in_silence(name, task)
+
+
+@lru_cache(maxsize=1)
+def _end_with(run: int) -> None:
+    """End this process soon after the run that it works for, should that be killed.
+
+    It would finish its task, then wait for another one for minutes, with all its memory.
+    """
+
+    def watch() -> None:
+        while os.getppid() == run:
+            time.sleep(_LOOKS_FOR_RUN_EVERY)
+        os._exit(1)
+
+    if os.getppid() == run:
+        threading.Thread(target=watch, name="watches the run", daemon=True).start()
 
 
 def _in_own_process(name: str, task: Task[_T]) -> Done[_T] | None:
