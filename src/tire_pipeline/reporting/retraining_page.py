@@ -55,14 +55,12 @@ def build_retraining_report(
 
 def build_rollback_report(registry: ModelRegistry) -> str:
     """The same page after a rollback: which model is in use now, and the history."""
-    decided = Text(
-        [
-            *_decided(registry.release.last_event, registry),
-            "What came and what drifted stands on this page after the next `kedro run --pipeline retrain`.",
-        ],
-        emphasis=True,
-    )
-    return render_page("Retraining", [decided, _history(registry)], pages=HOME)
+    parts = [
+        Text(list(_decided(registry.release.last_event, registry)), emphasis=True),
+        Text(["What came and what drifted stands here after the next `kedro run --pipeline retrain`."]),
+        _history(registry),
+    ]
+    return render_page("Retraining", parts, pages=HOME)
 
 
 def _comparison(comparison: pd.DataFrame) -> Table:
