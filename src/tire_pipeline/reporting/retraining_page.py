@@ -55,7 +55,7 @@ def build_retraining_report(
 
 def build_rollback_report(registry: ModelRegistry) -> str:
     """The same page after a rollback: which model is in use now, and the history."""
-    parts = [
+    parts: list[Part] = [
         Text(list(_decided(registry.release.last_event, registry)), emphasis=True),
         Text(["What came and what drifted stands here after the next `kedro run --pipeline retrain`."]),
         _history(registry),
