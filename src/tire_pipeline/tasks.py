@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 import os
 import sys
@@ -270,16 +271,25 @@ def _for_run(run: int, name: str, task: Task[_T], steps: bool) -> Done[_T]:
 def _end_with(run: int) -> None:
     """End this process soon after the run that it works for, should that be killed.
 
-    It would finish its task, then wait for another one for minutes, with all its memory.
+    It would finish its task, then wait for minutes for another one, or for ever for its result to be taken,
+    with all its memory. The run may be gone before this process begins the task.
     """
 
     def watch() -> None:
-        while os.getppid() == run:
+        while os.getppid() == run or _is_there(run):
             time.sleep(_LOOKS_FOR_RUN_EVERY)
         os._exit(1)
 
-    if os.getppid() == run:
-        threading.Thread(target=watch, name="watches the run", daemon=True).start()
+    threading.Thread(target=watch, name="watches the run", daemon=True).start()
+
+
+def _is_there(process: int) -> bool:
+    """Whether there is a process of this number."""
+    try:
+        os.kill(process, 0)
+    except OSError as error:
+        return error.errno == errno.EPERM
+    return True
 
 
 def _in_own_process(name: str, task: Task[_T]) -> Done[_T] | None:

@@ -172,6 +172,15 @@ used = {done.result() for done in work({str(n): os.getpid for n in range(8)}, "a
 print(*used, flush=True)
 list(work({str(n): partial(time.sleep, 60.0) for n in range(2)}, "sleeping"))
 """
+_GONE = """
+import os, subprocess, sys, time
+from tire_pipeline.tasks import _end_with
+
+ended = subprocess.Popen([sys.executable, "-c", ""])
+ended.wait()
+_end_with(ended.pid)
+time.sleep(60.0)
+"""
 
 
 def _lives(pid: str) -> bool:
@@ -191,6 +200,11 @@ def test_processes_end_with_a_run_that_is_killed():
     while any(map(_lives, used)) and time.monotonic() < deadline:
         time.sleep(0.1)
     assert not any(map(_lives, used))
+
+
+def test_a_process_ends_whose_run_was_gone_before_it_began():
+    """It waited for ever for its result to be taken."""
+    assert subprocess.run([sys.executable, "-c", _GONE], timeout=30.0).returncode == 1
 
 
 def test_one_thread_wherever_it_is_done(work):
