@@ -30,9 +30,9 @@ class FiniteRange(click.FloatRange):
         return number
 
 
-LOAD = FiniteRange(0.0, min_open=True)
+LOAD_OPTION = FiniteRange(0.0, min_open=True)
 """N."""
-CAMBER = FiniteRange(-90.0, 90.0, min_open=True, max_open=True)
+CAMBER_OPTION = FiniteRange(-90.0, 90.0, min_open=True, max_open=True)
 """deg."""
 
 
