@@ -1,14 +1,16 @@
 """Write the published proofs' scores into docs/explanation, none by hand: concealed.md, concealed_results.md.
 
-python benchmarks/proof_table.py                          # prints benchmarks/results/proof_scores.csv
-python benchmarks/proof_table.py --data data --write      # takes the last run's scores and misses first
+python benchmarks/proof_table.py                          # prints what follows from the committed tables
+python benchmarks/proof_table.py --data data              # from the last run's scores and misses
+python benchmarks/proof_table.py --data data --write      # and writes those into the tables and pages
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import shutil
+from dataclasses import dataclass, field
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -46,27 +48,62 @@ CHANCE = f"{OFF}, by chance alone"
 NAIVE, FLOOR, ORACLE = "bic_stepwise", "floor", "oracle"
 
 
-def take(data: Path) -> None:
-    """Copy scores and misses of the last ``prove_concealed`` below a data folder, or of the half that ran."""
+@dataclass
+class Taken:
+    """The committed tables as the last run leaves them.
+
+    Attributes
+    ----------
+    texts : dict of Path to str
+        Of the tables that the run changes.
+    real : tuple of pandas.DataFrame and dict, optional
+        Its scores on real recordings and what they were made with.
+    """
+
+    texts: dict[Path, str] = field(default_factory=dict)
+    real: tuple[pd.DataFrame, dict[str, Any]] | None = None
+
+    def table(self, path: Path) -> pd.DataFrame:
+        """A table, as the run leaves it or as it is committed."""
+        return pd.read_csv(StringIO(self.texts[path])) if path in self.texts else pd.read_csv(path)
+
+    def write(self) -> None:
+        """Replace the committed tables."""
+        for path, text in self.texts.items():
+            path.write_text(text, encoding="utf-8", newline="")
+
+
+def take(data: Path) -> Taken:
+    """Read scores and misses of the last ``prove_concealed`` below a data folder, or of the half that ran."""
+    taken = Taken()
     for name in ("proof_scores.csv", "proof_misses.csv"):
         if (data / "07_model_output" / name).is_dir():
-            shutil.copyfile(_last(data, name), RESULTS / name)
+            taken.texts[RESULTS / name] = _text(_last(data, name))
     if not (data / "07_model_output" / "real_proof_details.json").is_dir():
-        return
+        return taken
     made = json.loads(_last(data, "real_proof_details.json").read_text())
     if not made["published"]:
-        shutil.copyfile(_last(data, "real_proof_misses.csv"), RESULTS / "real_proof_misses.csv")
+        name = "real_proof_misses.csv"
+        taken.texts[RESULTS / name] = _text(_last(data, name))
         scores = pd.read_csv(_last(data, "real_proof_scores.csv"))
-        REAL.write_text(published_text(scores, made["made"]))
-        _remember(scores, made["made"])
+        taken.texts[REAL] = published_text(scores, made["made"])
+        taken.texts[RUNS] = _with_run(scores, made["made"])
+        taken.real = scores, made["made"]
+    return taken
 
 
-def _remember(scores: pd.DataFrame, made: dict[str, Any]) -> None:
-    """Add a run's own scores to those of the runs before."""
+def _with_run(scores: pd.DataFrame, made: dict[str, Any]) -> str:
+    """A run's own scores beside those of the runs before."""
     own = scores[(scores["method"] == OWN) & (scores["source"] == "all")][["name", "value", "n"]]
     before = pd.read_csv(RUNS)
     run = own.assign(seed=made["seed"], code=made["code"])[before.columns]
-    pd.concat([before[before["seed"] != made["seed"]], run]).to_csv(RUNS, index=False)
+    return pd.concat([before[before["seed"] != made["seed"]], run]).to_csv(index=False)
+
+
+def _text(path: Path) -> str:
+    """A file's text with the ends of lines that it has."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return file.read()
 
 
 def _last(data: Path, name: str) -> Path:
@@ -243,12 +280,13 @@ def main() -> None:
     parser.add_argument("--data", type=Path)
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
-    if asked.data:
-        take(asked.data)
-    simulated = pd.read_csv(RESULTS / "proof_scores.csv")
-    scores, made = published()
+    taken = take(asked.data) if asked.data else Taken()
+    if asked.write:
+        taken.write()
+    simulated = taken.table(RESULTS / "proof_scores.csv")
+    scores, made = taken.real or published()
     everywhere = scores[scores["source"] == "all"] if made else scores
-    runs, misses = pd.read_csv(RUNS), [pd.read_csv(RESULTS / name) for name in MISSES]
+    runs, misses = taken.table(RUNS), [taken.table(RESULTS / name) for name in MISSES]
     parts = [
         (PAGE, BEGIN_GOALS, goals(simulated, everywhere)),
         (RESULTS_PAGE, BEGIN, table(simulated)),

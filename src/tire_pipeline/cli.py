@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pkgutil
-import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ from yaml import YAMLError
 
 from tire_pipeline import pipelines
 from tire_pipeline.errors import DomainError, did_you_mean
-from tire_pipeline.kedro_runs.run_errors import one_line
+from tire_pipeline.kedro_runs.run_errors import errors_in_one_line, one_line
 from tire_pipeline.pages.visible_text import visible
 
 
@@ -25,17 +24,11 @@ def cli() -> None:
 def _run(**options: Any) -> Any:
     if options.get("pipeline") and not options.get("pipelines"):
         options["pipelines"], options["pipeline"] = [options["pipeline"]], None
-    try:
+    with errors_in_one_line():
         _check_names(options.get("pipelines") or ())
         click.echo("starting: loading the pipelines", err=True)
         run_of_kedro: Any = kedro_run.callback
         return run_of_kedro(**options)
-    except Exception as error:
-        line = one_line(error)
-        if line is None:
-            raise
-        click.secho(f"error: {visible(line)}", fg="red", err=True)
-        sys.exit(1)
 
 
 def _check_names(asked: Sequence[str]) -> None:

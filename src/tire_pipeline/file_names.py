@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import re
 
+NAMED_ONCE = "file_named_once"
+"""Attribute of a record in the log: the file or link that it names, which a run names once."""
 _ODD = re.compile(r"[\udc80-\udcff]|[\x00-\x1f\x7f]|\\(?=x[0-9a-f]{2})")
 _ASCII_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 _NOT_UTF8 = re.compile(r"[\udc80-\udcff]")

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import logging
+import os
 import sys
+import threading
+import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor
@@ -27,6 +31,8 @@ _DIED = "the process that did it died three times"
 _TODO_FOR_LOST_TASK = "take it out, or run where there is more memory"
 DEATHS = 3
 """How often the process of a task may die before the task is set aside."""
+_LOOKS_FOR_RUN_EVERY = 1.0
+"""s. How often a process of a run looks whether the run lives."""
 _WAITING: set[int] = set()
 """How many processes wait for more tasks."""
 
@@ -250,11 +256,40 @@ def _in_pool(
     _WAITING.add(count)
     parallel = Parallel(n_jobs=count, return_as="generator_unordered")
     yield from parallel(
-        delayed(attempt if steps or getattr(tasks[name], "steps", False) else attempt_in_silence)(
-            name, tasks[name]
-        )
+        delayed(_for_run)(os.getpid(), name, tasks[name], steps or getattr(tasks[name], "steps", False))
         for name in names
     )
+
+
+def _for_run(run: int, name: str, task: Task[_T], steps: bool) -> Done[_T]:
+    """Attempt a task in a process of a run's own."""
+    _end_with(run)
+    return attempt(name, task) if steps else attempt_in_silence(name, task)
+
+
+@lru_cache(maxsize=1)
+def _end_with(run: int) -> None:
+    """End this process soon after the run that it works for, should that be killed.
+
+    It would finish its task, then wait for minutes for another one, or for ever for its result to be taken,
+    with all its memory. The run may be gone before this process begins the task.
+    """
+
+    def watch() -> None:
+        while os.getppid() == run or _is_there(run):
+            time.sleep(_LOOKS_FOR_RUN_EVERY)
+        os._exit(1)
+
+    threading.Thread(target=watch, name="watches the run", daemon=True).start()
+
+
+def _is_there(process: int) -> bool:
+    """Whether there is a process of this number."""
+    try:
+        os.kill(process, 0)
+    except OSError as error:
+        return error.errno == errno.EPERM
+    return True
 
 
 def _in_own_process(name: str, task: Task[_T]) -> Done[_T] | None:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+import subprocess
+import sys
+import time
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -156,6 +160,51 @@ def test_processes_wait_for_more_tasks_until_they_are_ended():
     end_processes()
     assert not any(Path(f"/proc/{pid}").exists() for pid in first)
     assert used().isdisjoint(first)
+
+
+_RUN = """
+import os, time
+from functools import partial
+from tire_pipeline.tasks import in_processes
+
+work = in_processes(2)
+used = {done.result() for done in work({str(n): os.getpid for n in range(8)}, "asking")}
+print(*used, flush=True)
+list(work({str(n): partial(time.sleep, 60.0) for n in range(2)}, "sleeping"))
+"""
+_GONE = """
+import os, subprocess, sys, time
+from tire_pipeline.tasks import _end_with
+
+ended = subprocess.Popen([sys.executable, "-c", ""])
+ended.wait()
+_end_with(ended.pid)
+time.sleep(60.0)
+"""
+
+
+def _lives(pid: str) -> bool:
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
+
+
+def test_processes_end_with_a_run_that_is_killed():
+    """They finished their tasks, then stayed for over six minutes with half a gigabyte each."""
+    with subprocess.Popen([sys.executable, "-c", _RUN], stdout=subprocess.PIPE, text=True) as run:
+        used = run.stdout.readline().split()
+        assert used
+        assert all(map(_lives, used))
+        run.kill()
+    deadline = time.monotonic() + 20.0
+    while any(map(_lives, used)) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not any(map(_lives, used))
+
+
+def test_a_process_ends_whose_run_was_gone_before_it_began():
+    """It waited for ever for its result to be taken."""
+    assert subprocess.run([sys.executable, "-c", _GONE], check=False, timeout=30.0).returncode == 1
 
 
 def test_one_thread_wherever_it_is_done(work):

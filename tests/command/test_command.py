@@ -218,7 +218,7 @@ def test_a_difference_larger_than_the_force_has_no_exponent(folder):
         (("explain", "a.tir", "none.csv", "-o", "no/such/page.html"), "no/such: there is no such folder"),
         (("explain", "a.tir", "none.csv", "--corrected", "a.tir"), "choose another --corrected"),
         (("check", "none.csv"), "no such file"),
-        (("check", "a.tir", "--name", "x"), "'x' is not COLUMN=CHANNEL, such as Querkraft=fy"),
+        (("check", "a.tir", "--name", "x"), "'x' is not COLUMN=CHANNEL, such as Kraft_y=fy"),
         (("check", "a.tir", "--unit", "SA"), "'SA' is not COLUMN=UNIT, such as SA=deg"),
         (("show", "."), "this is a folder -> give one .tir file"),
         (("explain", "a.tir", "none.csv"), "no such file"),

@@ -30,11 +30,11 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
     assert "<svg" in page(folder / "run_check.html")
     pd.read_csv("run.csv").drop(columns="fy").to_csv("none.csv", index=False)
     assert "cannot be explained" in run("check", "none.csv", "--no-page", code=1).stdout
-    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Querkraft"})
+    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Kraft_y"})
     renamed["slip_angle"] = np.degrees(renamed["slip_angle"])
     renamed.to_csv("own.csv", index=False)
-    own = told("check", "own.csv", "--name", "Querkraft=fy", "--unit", "slip_angle=deg", "--no-page")
-    assert own["channels"]["fy"]["channel"] == "Querkraft"
+    own = told("check", "own.csv", "--name", "Kraft_y=fy", "--unit", "slip_angle=deg", "--no-page")
+    assert own["channels"]["fy"]["channel"] == "Kraft_y"
     assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
 
 
@@ -118,3 +118,17 @@ def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):
     record("run.csv", seconds=1.0)
     assert "-> save it again" in run("check", "run.csv", "--format", "MAT", code=2).stderr
     assert "--unit 'fy=N'" in run("check", "run.csv", "--unit", "fy=deg", code=2).stderr
+
+
+def test_of_many_columns_of_no_known_name_the_terminal_shows_the_first(folder):
+    """2,000 lines of the table hid what was said above it."""
+    record("run.csv")
+    table = pd.read_csv("run.csv")
+    more = pd.DataFrame({f"bus_{number}": 0.0 for number in range(300)}, index=table.index)
+    pd.concat([more, table], axis=1).to_csv("log.csv", index=False)
+    printed = run("check", "log.csv").stdout
+    assert len(printed.splitlines()) < 60
+    assert "--json has 280 more columns of no known name" in printed
+    assert "bus_19 " in printed
+    assert "\nfy " in printed
+    assert len(told("check", "log.csv", "--no-page")["channels"]) == 300 + len(table.columns)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
@@ -131,3 +132,24 @@ def test_a_file_whose_camber_pushes_the_wrong_way_is_told(folder, shift, told_so
     said = " ".join(run("show", "b.tir", "--no-page").stdout.split())
     assert ("away from the side to which the wheel leans" in said) is told_so
     assert (figures("b.tir")["camber stiffness"] < 0.0) is told_so
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("--load", "-5"), ("--load", "nan"), ("--load", "inf"), ("--camber", "95"), ("--camber", "nan")],
+)
+def test_a_load_or_camber_that_cannot_be_is_refused(folder, arguments):
+    """At infinite load two files differed by 3e17 N."""
+    for call in (("show", "a.tir"), ("compare", "a.tir", "b.tir")):
+        error = run(*call, *arguments, code=2).stderr
+        assert f"Invalid value for '{arguments[0]}'" in error
+
+
+def test_a_name_that_is_not_utf8_is_shown_and_json_can_be_read(folder):
+    """With a strict terminal --json ended in a traceback; the page's name was printed in another way."""
+    odd = os.fsdecode(b"m\xfcnchen.tir")
+    Path(odd).write_bytes(Path("a.tir").read_bytes())
+    assert run("show", odd).stdout.endswith("written: m\\xfcnchen_show.html\n")
+    assert Path(os.fsdecode(b"m\xfcnchen_show.html")).is_file()
+    found = told("show", odd)
+    assert (found["file"], found["written"]) == ("m\\xfcnchen.tir", ["m\\xfcnchen_show.html"])

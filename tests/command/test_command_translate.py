@@ -174,6 +174,16 @@ def test_the_model_beside_a_misspelt_name_is_named(folder):
     assert "did you mean 06_models/translator.npz?" in " ".join(said.split())
 
 
+def test_a_file_that_is_no_model_is_told_as_such(folder):
+    """A recording was called a damaged model, which was to be trained again."""
+    Path("run.csv").write_text("SA,FZ,FY\n0,4000,0\n")
+    Path("empty.npz").touch()
+    np.savez("arrays.npz", a=np.zeros(3))
+    for other in ("run.csv", "empty.npz", "arrays.npz", "A/tire.tir"):
+        error = run("translate", "A/tire.tir", "--model", other, code=2).stderr
+        assert f"{other}: this is no fitted model -> give one, such as data/06_models/translator.npz" in error
+
+
 def test_its_page_is_read_in_a_browser(folder):
     needs_browser()
     run("translate", "A/tire.tir", "--model", "06_models/translator.npz")

@@ -7,6 +7,7 @@ import logging
 
 import pytest
 
+from tire_pipeline.datasets import TirFolderDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
@@ -59,3 +60,18 @@ def test_a_run_of_ingest_and_translate_names_a_file_once_and_the_next_run_again(
     hooks.after_pipeline_run()
     _translate("A/2.tir")
     assert said.getvalue().count("A/2.tir") == 2
+
+
+def test_a_link_to_what_is_taken_is_named_once_too(said, tmp_path, monkeypatch):
+    """Each of 21 lines came twice where ingest_tir and translate were run together."""
+    monkeypatch.setattr(logging.getLogger("tire_pipeline"), "level", logging.INFO)
+    (tmp_path / "A").mkdir()
+    (tmp_path / "A" / "1.tir").write_text("a tire")
+    for number in range(25):
+        (tmp_path / f"again{number}").symlink_to("A")
+    hooks = NodeProgressHooks()
+    hooks.before_pipeline_run(_Nodes)
+    for _ in range(2):
+        TirFolderDataset(path=str(tmp_path)).load()
+    hooks.after_pipeline_run()
+    assert said.getvalue().count("taken already.") == 21

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
+from tire_pipeline.recordings.conventions.foreign_names import FRENCH, GERMAN
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "recordings.md"
@@ -19,6 +20,17 @@ def names_table() -> str:
     for channel in FURTHER:
         aliases = ", ".join(f"`{a}`" for a in channel.aliases)
         lines.append(f"| `{channel.name}` | {channel.unit} | {aliases} |")
+    lines += [
+        "",
+        "In German (with `ae` for `ä` and so on, too) and French:",
+        "",
+        "| column | German | French |",
+    ]
+    lines.append("| --- | --- | --- |")
+    for name in (each.name for each in (*CANONICAL, *FURTHER)):
+        if name in GERMAN or name in FRENCH:
+            cells = (", ".join(f"`{a}`" for a in language.get(name, ())) for language in (GERMAN, FRENCH))
+            lines.append(f"| `{name}` | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 

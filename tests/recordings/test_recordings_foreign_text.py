@@ -15,6 +15,8 @@ import pytest
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import check_recording, read_recording
+from tire_pipeline.recordings.conventions.channel_names import find_channel
+from tire_pipeline.recordings.conventions.foreign_names import FRENCH, GERMAN
 
 ROWS = 60
 TABLE = pd.DataFrame(
@@ -97,10 +99,40 @@ def test_a_row_of_units_whose_last_cells_are_empty_is_one(tmp_path):
 
 def test_names_that_nobody_knows_are_told_instead_of_the_units(tmp_path):
     lines = _text({}).splitlines()
-    with pytest.raises(
-        RecordingError, match=r"among Zeit \(s\), Winkel \(deg\), Radlast \(N\), Querkraft \(N\)"
-    ):
-        _read(tmp_path, "\n".join(["Zeit,Winkel,Radlast,Querkraft", *lines[1:]]))
+    with pytest.raises(RecordingError, match=r"among Dauer \(s\), Winkel \(deg\), Last \(N\), Kraft \(N\)"):
+        _read(tmp_path, "\n".join(["Dauer,Winkel,Last,Kraft", *lines[1:]]))
+
+
+LANGUAGES = {
+    "German": ["Zeit in s", "Schräglaufwinkel [°]", "Radlast Fz [N]", "Seitenkraft / N"],
+    "German, ASCII": ["ZEIT", "SCHRAEGLAUFWINKEL (Grad)", "RADLAST (N)", "QUERKRAFT (N)"],
+    "German, decomposed": ["Messzeit", "Schra\u0308glaufwinkel (deg)", "Vertikalkraft", "Reifenseitenkraft"],
+    "French": ["Temps (s)", "Angle de dérive (deg)", "Charge verticale en N", "Effort latéral [N]"],
+    "English": ["Time", "Slip angle SA in deg", "Normal load Fz", "Lateral force (FY)"],
+}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+@pytest.mark.parametrize("head", LANGUAGES.values(), ids=LANGUAGES)
+def test_names_of_other_languages_and_with_symbols(tmp_path, head, encoding):
+    lines = _text({}, units=None, separator=";").replace(".", ",").splitlines()
+    text = "\n".join([";".join(head), *lines[1:]])
+    (tmp_path / "run.csv").write_bytes(text.encode(encoding, errors="ignore"))
+    _is_table(read_recording(tmp_path / "run.csv", axes="ISO"))
+
+
+def test_a_known_name_counts_before_one_in_another_language(tmp_path):
+    more = {"Seitenkraft": ["1"] * ROWS, "Lenkwinkel": ["2"] * ROWS, "Radlast Fy": ["3"] * ROWS}
+    found = _read(tmp_path, _text(more, units=[*UNITS, "N", "deg", "N"]))
+    _is_table(found)
+    assert "Seitenkraft: fy is taken from FY; kept beside it" in found.attrs["notes"]
+    assert "not used, because their names are not known: Lenkwinkel, Radlast Fy" in found.attrs["notes"]
+
+
+@pytest.mark.parametrize("language", [GERMAN, FRENCH])
+def test_each_name_in_another_language_is_of_one_channel(language):
+    for channel, names in language.items():
+        assert {find_channel(name)[0].name for name in names} == {channel}
 
 
 def test_columns_without_a_name_are_left_out_and_nothing_warns(tmp_path, recwarn):

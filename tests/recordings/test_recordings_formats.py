@@ -44,12 +44,12 @@ def test_csv_units_in_names(tmp_path):
 
 def test_columns_of_other_names_are_asked_for_by_their_unit(tmp_path):
     file = tmp_path / "Messung.csv"
-    table = {"Zeit [s]": T, "SA [deg]": SA, "FZ [N]": FZ, "FY [N]": FY, "Reifendruck [bar]": 2.3, "Lauf": 1.0}
+    table = {"Dauer [s]": T, "SA [deg]": SA, "FZ [N]": FZ, "FY [N]": FY, "Luftdruck [bar]": 2.3, "Lauf": 1.0}
     pd.DataFrame(table).to_csv(file, index=False, sep=";", decimal=",", encoding="cp1252")
     (asked,) = [note for note in read_recording(file).attrs["notes"] if "--name" in note]
-    assert asked.startswith("Zeit (s), Reifendruck (bar) are not used; if one of them is time or pressure")
-    assert "--name Zeit=time," in asked
-    named = read_recording(file, names={"Zeit": "time", "Reifendruck [bar]": "pressure"})
+    assert asked.startswith("Dauer (s), Luftdruck (bar) are not used; if one of them is time or pressure")
+    assert "--name Dauer=time," in asked
+    named = read_recording(file, names={"Dauer": "time", "Luftdruck [bar]": "pressure"})
     assert not [note for note in named.attrs["notes"] if "--name" in note]
     pd.DataFrame({"t [s]": T, "Dauer [s]": T, "SA [deg]": SA, "FY [N]": FY}).to_csv(file, index=False)
     assert not [note for note in read_recording(file).attrs["notes"] if "--name" in note], "there is a time"

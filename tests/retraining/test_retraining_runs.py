@@ -151,17 +151,20 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     before = _in_use(folder).release
     _run(folder)
     assert _outcome(folder)["event"] == "unchanged"
+    assert "Nothing changed" in (folder / "data/08_reporting/retraining.html").read_text()
     assert _in_use(folder).release == before
     later = replace(before.judged, digest="of other files")
     after = judge(before, "later", later, better=True, time="now", figures={})
     _released(folder).save(ModelRegistry(after, _in_use(folder).model))
     assert _in_use(folder).release.current == "later"
     said = _run(folder, "rollback")
-    assert f"model in use: {before.current} (later taken back)" in said
+    assert "An earlier model was put back: later was taken back by the pipeline rollback." in said
+    assert f"Model in use: {before.current}." in said
     assert _in_use(folder).release.current == before.current
     assert first in before.models
     page = (folder / "data/08_reporting/retraining.html").read_text()
-    assert "Nothing changed" in page
+    assert "An earlier model was put back" in page  # it named the model that was taken back as the one in use
+    assert f"Model in use: {before.current}." in page
     assert "http:" not in page
     assert "https:" not in page
 

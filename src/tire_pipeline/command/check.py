@@ -99,7 +99,22 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue]) -> CommandO
     def page() -> str:
         return _page(run, recording, lines, channels, found, notes)
 
-    return CommandOutcome(run.name, lines, data, page, [channels, *([found] if issues else [])], notes)
+    shown = [_first(channels), *([found] if issues else [])]
+    return CommandOutcome(run.name, lines, data, page, shown, notes)
+
+
+def _first(channels: Grid) -> Grid:
+    """The channels that are known and the first others: a log of a vehicle has hundreds of columns."""
+    from tire_pipeline.recordings.conventions.canonical import STRANGE_NAMED
+    from tire_pipeline.recordings.conventions.channel_names import find_channel
+
+    strange = [row for row in channels.rows if find_channel(row[0]) is None]
+    more = strange[STRANGE_NAMED:]
+    if not more:
+        return channels
+    left = set(map(id, more))
+    title = f"{channels.title}; --json has {len(more):,} more columns of no known name"
+    return Grid(channels.header, [row for row in channels.rows if id(row) not in left], title)
 
 
 def _count(number: int, what: str) -> str:

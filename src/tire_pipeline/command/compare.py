@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.channels import unit_of
-from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
+from tire_pipeline.command.options import (
+    CAMBER_OPTION,
+    FILE,
+    LOAD_OPTION,
+    names_of,
+    output_options,
+    radius_option,
+)
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent, three_digits
 from tire_pipeline.errors import DomainError
 
@@ -28,8 +35,8 @@ _ROUNDING_SHARE = 1e-9
 @click.command(help="Compare A.tir with B.tir: key figures, forces at pure slip, coefficients that differ.")
 @click.argument("first", type=FILE, metavar="A.tir")
 @click.argument("second", type=FILE, metavar="B.tir")
-@click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; can be repeated.")
-@click.option("--camber", type=float, default=0.0, show_default=True, help="Camber, deg.")
+@click.option("--load", "loads", type=LOAD_OPTION, multiple=True, help="Normal load, N; can be repeated.")
+@click.option("--camber", type=CAMBER_OPTION, default=0.0, show_default=True, help="Camber, deg.")
 @radius_option
 @output_options("-o")
 def command(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,23 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path)
+
+
+class FiniteRange(click.FloatRange):
+    """A number within a range; neither ``nan`` nor ``inf``, which click takes for one."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        number = float(super().convert(value, param, ctx))
+        if not math.isfinite(number):
+            self.fail(f"{value!r} is not a finite number.", param, ctx)
+        return number
+
+
+LOAD_OPTION = FiniteRange(0.0, min_open=True)
+"""N."""
+CAMBER_OPTION = FiniteRange(-90.0, 90.0, min_open=True, max_open=True)
+"""deg."""
 
 
 def output_options(*names: str) -> Callable[[F], F]:
@@ -104,7 +122,7 @@ def reading_options(function: F) -> F:
             "names",
             multiple=True,
             metavar="COLUMN=CHANNEL",
-            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated. A "
+            help="Which channel a column of the file is, such as --name Kraft_y=fy; can be repeated. A "
             "channel that no column holds may be a number: --name slip_angle=0. Of several recordings, "
             "--axes, --unit and --name hold for all, or for one: --unit run.csv:FY=kN.",
         ),
@@ -146,7 +164,7 @@ def read_runs(
             format=format_,
             axes=next(iter(reversed(stated(axes, "--axes"))), None),
             units=_pairs(stated(units, "--unit"), "--unit", "COLUMN=UNIT, such as SA=deg"),
-            names=_pairs(stated(names, "--name"), "--name", "COLUMN=CHANNEL, such as Querkraft=fy"),
+            names=_pairs(stated(names, "--name"), "--name", "COLUMN=CHANNEL, such as Kraft_y=fy"),
         )
     return runs
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.channels import shown_unit
-from tire_pipeline.command.options import FILE, output_options, radius_option
+from tire_pipeline.command.options import CAMBER_OPTION, FILE, LOAD_OPTION, output_options, radius_option
 from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish, three_digits
 from tire_pipeline.pages.numbers_in_words import first_of
 from tire_pipeline.unit_definitions import DEGREE
@@ -43,9 +43,11 @@ _MOMENT = ("QDZ", "SSZ")
 @click.command(help="Show what FILE.tir holds: version, ranges, key figures, what is missing, curves.")
 @click.argument("file", type=FILE, metavar="FILE.tir")
 @click.option(
-    "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; can be repeated."
+    "--load", "loads", type=LOAD_OPTION, multiple=True, help="Normal load of a curve, N; can be repeated."
 )
-@click.option("--camber", type=float, default=0.0, show_default=True, help="Camber of the curves, deg.")
+@click.option(
+    "--camber", type=CAMBER_OPTION, default=0.0, show_default=True, help="Camber of the curves, deg."
+)
 @radius_option
 @output_options("-o")
 def command(file: Path, loads: tuple[float, ...], camber: float, radius: float | None, **output: Any) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.state_files import unpack_state
+from tire_pipeline.files.state_files import is_state, unpack_state
 
 NAME = "translator.npz"
 """The translator's name where a folder holds other models, too."""
@@ -33,13 +33,17 @@ def stored_state(path: Path) -> tuple[dict[str, Any], Path]:
     Raises
     ------
     DomainError
-        There is none, or it is damaged.
+        There is none, it is no model, or it is damaged.
     """
     file = _file(path)
     try:
         content = file.read_bytes()
     except OSError as error:
         raise DomainError(f"the model cannot be read: {error.strerror}", where=str(file)) from error
+    if not is_state(content):
+        raise DomainError(
+            "this is no fitted model", where=str(file), todo=f"give one, such as data/06_models/{NAME}"
+        )
     return unpack_state(content, where=str(file)), file
 
 

@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.file_names import printable
+
 
 def json_value(value: Any) -> Any:
-    """Return JSON types: no arrays, NaN and infinities as null.
+    """Return JSON types: no arrays, NaN and infinities as null; names of files that can be written as UTF-8.
 
     Examples
     --------
@@ -19,7 +21,7 @@ def json_value(value: Any) -> Any:
     {'sizes': [1.0, None], '2': True}
     """
     if isinstance(value, Mapping):
-        return {str(key): json_value(each) for key, each in value.items()}
+        return {printable(str(key)): json_value(each) for key, each in value.items()}
     if isinstance(value, np.ndarray):
         return json_value(value.tolist())
     if isinstance(value, list | tuple):
@@ -28,6 +30,4 @@ def json_value(value: Any) -> Any:
         return json_value(value.item())
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if isinstance(value, Path):
-        return str(value)
-    return value
+    return printable(str(value)) if isinstance(value, str | Path) else value

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.packed import pack, unpack
+from tire_pipeline.files.packed import names_in, pack, unpack
 
 _PLAIN_MEMBER = "plain.json"
 _SUM = "sha256"
+_ZIP_BEGINS = b"PK"
 
 
 def prefixed(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
@@ -47,6 +48,17 @@ def pack_state(state: dict[str, Any]) -> bytes:
     """A state as the bytes of a ZIP file; the same state gives the same bytes."""
     members = _members(state)
     return pack({**{name: members[name] for name in sorted(members)}, _SUM: _checksum(members).encode()})
+
+
+def is_state(content: bytes) -> bool:
+    """Whether a file was made by :func:`pack_state`, be it whole or damaged: a ZIP that names its hash.
+
+    The list of names is at the end of a ZIP: of one that is cut off only its beginning can be judged.
+    """
+    try:
+        return _SUM in names_in(content)
+    except DomainError:
+        return content.startswith(_ZIP_BEGINS)
 
 
 def state_digest(state: dict[str, Any]) -> str:

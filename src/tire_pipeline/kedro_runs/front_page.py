@@ -27,6 +27,10 @@ def _beginnings(reports: Objects, folder: Path) -> None:
         os.utime(path, (listed.written, listed.written))
 
 
+def _has_reports(folder: Path | Objects) -> bool:
+    return not folder.is_empty() if isinstance(folder, Objects) else folder.is_dir()
+
+
 class FrontPageHooks:
     """Writes ``data/08_reporting/index.html``, which links all reports."""
 
@@ -60,8 +64,8 @@ class FrontPageHooks:
 
         It comes before the run's ticket is returned: a run that has lost it writes nothing more.
         """
-        if isinstance(self._folder, Path) and self._folder.is_dir():
-            with contextlib.suppress(Exception):  # what the run failed of is told
+        with contextlib.suppress(Exception):  # what the run failed of is told
+            if self._folder is not None and _has_reports(self._folder):
                 self._make(self._folder)
 
     def _make(self, folder: Path | Objects) -> str:

@@ -12,6 +12,7 @@ from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
+from tire_pipeline.file_names import NAMED_ONCE
 from tire_pipeline.pages.visible_text import VisibleFormatter
 from tire_pipeline.progress import under_way
 
@@ -135,7 +136,7 @@ class NodeProgressHooks:
 
 
 class FileNamedOnce(logging.Filter):
-    """Lets a file that cannot be read be named once, though several pipelines of a run read it."""
+    """Lets a file that cannot be read, or a link, be named once, though several pipelines meet it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -143,7 +144,7 @@ class FileNamedOnce(logging.Filter):
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Whether the record is about no such file, or about one that was not named before."""
-        file = getattr(record, "unread_file", None)
+        file = getattr(record, NAMED_ONCE, None)
         new = file not in self._named
         if file is not None:
             self._named.add(file)

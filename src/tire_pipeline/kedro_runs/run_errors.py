@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
+import sys
+from collections.abc import Iterator
 
+import click
 from kedro.config import MissingConfigException
 from kedro.io import DatasetError
 from kedro.validation import ParameterValidationError
@@ -11,12 +15,27 @@ from omegaconf.errors import OmegaConfBaseException
 from yaml import YAMLError
 
 from tire_pipeline.errors import TirePipelineError, chain, system_advice
+from tire_pipeline.pages.visible_text import visible
 
+_NO_PROJECT = "Could not find the project configuration file"
 _LINK = re.compile(r"\s*For further information visit https?://\S+")
 _ERROR_SECTION = re.compile(
     r"- Parameter '(\w+)': Failed to instantiate .* validation errors? for \w+$", re.MULTILINE
 )
 _GIVEN = re.compile(r"\s*\[type=(\w+), input_value=(.*), input_type=\w+\]$")
+
+
+@contextlib.contextmanager
+def errors_in_one_line() -> Iterator[None]:
+    """End the process with one line on standard error and exit code 1 where one line helps."""
+    try:
+        yield
+    except Exception as error:
+        line = one_line(error)
+        if line is None:
+            raise
+        click.secho(f"error: {visible(line)}", fg="red", err=True)
+        sys.exit(1)
 
 
 def one_line(error: BaseException) -> str | None:
@@ -52,6 +71,9 @@ def one_line(error: BaseException) -> str | None:
             break
         if isinstance(each, ValueError) and str(each).startswith("Pipeline does not contain"):
             text = f"{each} -> `kedro registry describe PIPELINE` lists the nodes of a pipeline"
+            break
+        if isinstance(each, RuntimeError) and str(each).startswith(_NO_PROJECT):
+            text = f"{str(each).partition('. ')[0]} -> run it in the project's folder"
             break
         if isinstance(each, ParameterValidationError):
             text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"

@@ -14,6 +14,7 @@ from typing import cast
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
+from tire_pipeline.kedro_runs.run_errors import errors_in_one_line
 from tire_pipeline.lineage.descriptions import described, descriptions
 from tire_pipeline.lineage.first_screen import prepared
 from tire_pipeline.lineage.page_policy import with_policy
@@ -94,10 +95,11 @@ def main() -> None:
     parser.add_argument("--project", type=Path, default=Path.cwd())
     arguments = parser.parse_args()
     project = arguments.project.resolve()
-    page = one_page(arguments.build, project)
-    write_bytes(arguments.page, page.encode())
-    print(f"lineage: {arguments.page}")
-    _link(arguments.page, project)
+    with errors_in_one_line():
+        page = one_page(arguments.build, project)
+        write_bytes(arguments.page, page.encode())
+        print(f"lineage: {arguments.page}")
+        _link(arguments.page, project)
 
 
 def _link(page: Path, project: Path) -> None:

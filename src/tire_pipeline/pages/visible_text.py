@@ -7,12 +7,16 @@ import re
 import unicodedata
 from typing import Any
 
+from tire_pipeline.file_names import printable
+
 _UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
 _PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
 
 
 def visible(text: object) -> str:
     r"""Return a text from a file as it can be shown: control and direction characters by their code points.
+
+    Bytes of a file's name that are not UTF-8 become ``\xNN``, as everywhere.
 
     Examples
     --------
@@ -21,7 +25,7 @@ def visible(text: object) -> str:
     """
     return _PERHAPS_UNSEEN.sub(
         lambda found: f"⟨U+{ord(found[0]):04X}⟩" if unicodedata.category(found[0]) in _UNSEEN else found[0],
-        str(text),
+        printable(str(text)),
     )
 
 

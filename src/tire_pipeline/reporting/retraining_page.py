@@ -1,4 +1,4 @@
-"""The page of the last retraining."""
+"""The page of the last retraining or rollback."""
 
 from __future__ import annotations
 
@@ -48,6 +48,16 @@ def build_retraining_report(
         _comparison(comparison),
         *_drift(drift),
         _unread(counts, unread),
+        _history(registry),
+    ]
+    return render_page("Retraining", parts, pages=HOME)
+
+
+def build_rollback_report(registry: ModelRegistry) -> str:
+    """The same page after a rollback: which model is in use now, and the history."""
+    parts: list[Part] = [
+        Text(list(_decided(registry.release.last_event, registry)), emphasis=True),
+        Text(["What came and what drifted stands here after the next `kedro run --pipeline retrain`."]),
         _history(registry),
     ]
     return render_page("Retraining", parts, pages=HOME)
@@ -113,13 +123,14 @@ def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 
 def _decision(counts: Mapping[str, int], outcome: dict[str, Any], registry: ModelRegistry) -> Text:
     came = ", ".join(f"{count:,} {status}" for status, count in counts.items()) or "no change"
-    return Text(
-        [
-            f"{_HAPPENED.get(outcome['event'], outcome['event'])}: {outcome['reason']}.",
-            f"Model in use: {registry.release.current or 'none'}. Files since the last run: {came}.",
-        ],
-        emphasis=True,
-    )
+    happened, in_use = _decided(outcome, registry)
+    return Text([happened, f"{in_use} Files since the last run: {came}."], emphasis=True)
+
+
+def _decided(event: Mapping[str, Any], registry: ModelRegistry) -> tuple[str, str]:
+    """What happened and why, and which model is in use now."""
+    happened = _HAPPENED.get(event["event"], event["event"])
+    return f"{happened}: {event['reason']}.", f"Model in use: {registry.release.current or 'none'}."
 
 
 def _drift(drift: pd.DataFrame) -> list[Part]:

@@ -12,6 +12,7 @@ import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.file_names import NAMED_ONCE
 from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
@@ -108,7 +109,7 @@ def name_unread(files: Iterable[tuple[str, str]], what: str) -> None:
     A record says which file it is about: a run names a file once, whichever of its pipelines reads it first.
     """
     for file, reason in files:
-        _LOG.warning("%s %s: %s", file, what, reason, extra={"unread_file": file})
+        _LOG.warning("%s %s: %s", file, what, reason, extra={NAMED_ONCE: file})
 
 
 def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:

@@ -14,7 +14,7 @@ from kedro_datasets.partitions import PartitionedDataset
 from tire_pipeline.datasets.users_files.archives import to_unpack
 from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
-from tire_pipeline.file_names import shown_name
+from tire_pipeline.file_names import NAMED_ONCE, shown_name
 from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.files.growing import set_growing_aside, todo_of
 from tire_pipeline.files.objects import Objects, no_place, refuse_keys
@@ -84,9 +84,10 @@ class TirFolderDataset(PartitionedDataset):
         found = walk(self._path, _is_tir)
         set_growing_aside(found)
         for name, other in islice(found.again.items(), NAMED_IN_LOG):
-            _LOG.info("%s is a link to %s, which is taken already.", name, other)
+            _LOG.info("%s is a link to %s, which is taken already.", name, other, extra={NAMED_ONCE: name})
         if (more := len(found.again) - NAMED_IN_LOG) > 0:
-            _LOG.info("%d more links lead to what is taken already.", more)
+            about = {NAMED_ONCE: f"{self._path}: links"}
+            _LOG.info("%d more links lead to what is taken already.", more, extra=about)
         partitions: dict[str, Callable[[], Any]] = {
             name: TirLoader(path) for name, path in found.files.items()
         }

@@ -4,15 +4,14 @@ import datetime
 
 from kedro.pipeline import Node, Pipeline
 
+from tire_pipeline.reporting.retraining_page import build_rollback_report
 from tire_pipeline.retraining import ModelRegistry, roll_back
 
 
 def restore_previous(registry: ModelRegistry) -> ModelRegistry:
     """Put the newest earlier model back whose file is intact."""
     now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
-    release = roll_back(registry.release, time=now, unusable=registry.unusable)
-    print(f"model in use: {release.current} ({registry.release.current} taken back)")
-    return ModelRegistry(release)
+    return ModelRegistry(roll_back(registry.release, time=now, unusable=registry.unusable))
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -24,6 +23,12 @@ def create_pipeline(**_: object) -> Pipeline:
                 inputs="released_record",
                 outputs="released_model_updated",
                 name="restore_previous",
-            )
+            ),
+            Node(
+                build_rollback_report,
+                inputs="released_model_updated",
+                outputs="retraining_report",
+                name="build_rollback_report",
+            ),
         ]
     )

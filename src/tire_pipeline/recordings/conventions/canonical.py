@@ -21,8 +21,8 @@ from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
-_STRANGE_NAMED = 20
-"""So many columns of no known name are named; the table of the channels has them all."""
+STRANGE_NAMED = 20
+"""So many columns of no known name are named; ``tire check --json`` has them all."""
 
 
 @dataclass
@@ -88,7 +88,7 @@ def canonical_frame(
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
     if strange:
-        notes.append(f"not used, because their names are not known: {first_of(strange, _STRANGE_NAMED)}")
+        notes.append(f"not used, because their names are not known: {first_of(strange, STRANGE_NAMED)}")
     wheels = of_a_wheel(strange)
     if not any(name in _SI for name in columns):
         raise RecordingError(
@@ -270,7 +270,7 @@ def _check_told(names: Mapping[str, str], source: str) -> None:
                 todo=did_you_mean(
                     told,
                     [channel.name for channel in (*CANONICAL, *FURTHER)],
-                    "the file's name stands first and the channel second, such as Querkraft=fy; "
+                    "the file's name stands first and the channel second, such as Kraft_y=fy; "
                     "docs/reference/recordings.md lists the channels",
                 ),
             )

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
+
+from tire_pipeline.recordings.conventions.foreign_names import foreign_names
 
 
 @dataclass(frozen=True)
 class Channel:
     """One canonical column: its dimension, SI unit and the names it goes by.
 
-    `aliases` are compared without case, blanks, `_`, `-` and `.`; the earlier the better where a
-    file has several.
+    `aliases` are compared as :func:`plain_name` has them; the earlier the better where a file has several.
+    Names in other languages (:mod:`.foreign_names`) come after them.
     """
 
     name: str
@@ -148,29 +151,54 @@ FURTHER: tuple[Channel, ...] = (
 
 
 def plain_name(name: str) -> str:
-    """A name without case, blanks, `_`, `-` and `.`."""
-    return re.sub(r"[\s_.\-]+", "", name).lower()
+    """A name without case, accents, blanks, `_`, `-`, `.` and apostrophes.
+
+    Examples
+    --------
+    >>> plain_name("Couple d'auto-alignement"), plain_name("Längskraft")
+    ('coupledautoalignement', 'langskraft')
+    """
+    if not name.isascii():
+        letters = unicodedata.normalize("NFD", name)
+        name = "".join(each for each in letters if not unicodedata.combining(each))
+    return _NOT_COMPARED.sub("", name).lower()
 
 
 def _ranks() -> dict[str, tuple[Channel, int]]:
     table: dict[str, tuple[Channel, int]] = {}
     for channel in (*CANONICAL, *FURTHER):
-        for rank, alias in enumerate((channel.name, *channel.aliases)):
+        names = (channel.name, *channel.aliases, *foreign_names(channel.name))
+        for rank, alias in enumerate(names):
             table.setdefault(plain_name(alias), (channel, rank))
     return table
 
 
+_NOT_COMPARED = re.compile(r"[\s_.\-'\u2019]+")
+_BETWEEN_NAMES = re.compile(r"[\s,()\[\]]+")
 _RANK_OF_NAME = _ranks()
 
 
 def find_channel(name: str) -> tuple[Channel, int] | None:
     """The channel that a name stands for, and how far down its list of aliases it is.
 
+    A word with its symbol is one name: ``Radlast Fz``.
+
     Examples
     --------
-    >>> find_channel("Slip Angle")[0].name
-    'slip_angle'
-    >>> find_channel("brake_pressure") is None
-    True
+    >>> find_channel("Slip Angle")[0].name, find_channel("Radlast Fz")[0].name
+    ('slip_angle', 'normal_load')
+    >>> find_channel("brake_pressure") is None, find_channel("Radlast Fy") is None
+    (True, True)
     """
-    return _RANK_OF_NAME.get(plain_name(name))
+    return _RANK_OF_NAME.get(plain_name(name)) or _named_twice(name)
+
+
+def _named_twice(name: str) -> tuple[Channel, int] | None:
+    """The channel that both parts of a name stand for."""
+    words = [word for word in _BETWEEN_NAMES.split(name) if word]
+    for end in range(1, len(words)):
+        first = _RANK_OF_NAME.get(plain_name("".join(words[:end])))
+        second = _RANK_OF_NAME.get(plain_name("".join(words[end:])))
+        if first and second and first[0] is second[0]:
+            return min(first, second, key=lambda found: found[1])
+    return None

@@ -34,8 +34,8 @@ def may_be(columns: Mapping[str, str | None], known: Iterable[str]) -> str:
 
     Examples
     --------
-    >>> may_be({"Zeit": "s", "Bemerkung": None}, known=["fy"])
-    "Zeit (s) is not used; if it is time, say so: --name Zeit=time, in Python names={'Zeit': 'time'}"
+    >>> may_be({"Dauer": "s", "Bemerkung": None}, known=["fy"])
+    "Dauer (s) is not used; if it is time, say so: --name Dauer=time, in Python names={'Dauer': 'time'}"
     """
     missing = {c.dimension: c.name for c in _OWN_KIND if c.name not in set(known)}
     hints = {}

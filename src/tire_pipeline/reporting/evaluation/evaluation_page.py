@@ -33,6 +33,10 @@ _TABLE_LINKS = [
     ("tables/classifier_scores.csv", "classifier_scores.csv", "accuracy of every classifier on both splits"),
 ]
 
+_HEADING_OF_TABLES = (
+    "Tables (CSV): the newest of each, so a later run, also one with other files, replaces them"
+)
+
 _METRIC_WORDS = {
     "forces": "lateral force",
     "cornering_stiffness": "cornering stiffness",
@@ -132,7 +136,7 @@ def build_report(
             heading="The thesis' agent",
         ),
     ]
-    parts.append(Links(_TABLE_LINKS, heading="Tables"))
+    parts.append(Links(_TABLE_LINKS, heading=_HEADING_OF_TABLES))
     return render_page(f"Tires as {target_category} would have measured them", parts, pages=HOME)
 
 
