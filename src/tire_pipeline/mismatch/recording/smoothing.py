@@ -15,7 +15,7 @@ import scipy
 
 Array = np.ndarray
 _WAVELET = pywt.Wavelet("sym8")
-_EDGE = "antireflect"
+_BEYOND_THE_ENDS = "antireflect"
 """A sweep goes on in its direction beyond the ends of a piece."""
 _NOISE_ONLY = 1.5
 """A channel that spreads no wider than so many times its noise stands still."""
@@ -46,10 +46,10 @@ def denoise(x: Array, start: Array) -> Array:
         return np.full_like(x, np.mean(x))
     out = x.copy()
     for piece in long:
-        slowest, *faster = pywt.wavedec(x[piece], _WAVELET, _EDGE)
+        slowest, *faster = pywt.wavedec(x[piece], _WAVELET, _BEYOND_THE_ENDS)
         chance = sigma * np.sqrt(2.0 * np.log(x[piece].size))  # the largest of as many by chance
         kept = [slowest, *(pywt.threshold(level, chance, "garrote") for level in faster)]
-        out[piece] = pywt.waverec(kept, _WAVELET, _EDGE)[: x[piece].size]
+        out[piece] = pywt.waverec(kept, _WAVELET, _BEYOND_THE_ENDS)[: x[piece].size]
     return out
 
 
@@ -58,5 +58,5 @@ def _noise(pieces: list[Array]) -> float:
 
     Filters of sensors take more off the first level, of neighbouring samples.
     """
-    second = [pywt.wavedec(piece, _WAVELET, _EDGE, level=2)[1] for piece in pieces]
+    second = [pywt.wavedec(piece, _WAVELET, _BEYOND_THE_ENDS, level=2)[1] for piece in pieces]
     return float(np.median(np.abs(np.concatenate(second)))) / scipy.stats.halfnorm.median() if second else 0.0
