@@ -81,13 +81,16 @@ def of_part(space: CurveSpace, k: int, values: dict[str, float], other: float) -
 def fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray) -> tuple[Fitted, ...]:
     """Fit every score twice: the second time the size of the bias is expected as it was found in all of them.
 
-    Six categories tell little about the variance of their effects on one score; all scores together do.
+    Six categories tell little about the variance of their effects on one score; all scores together do, but
+    for those that tell nothing.
     """
     numbers = track(range(scale.size), "fitting each property of the curves")
     first = [fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in numbers]
     noise = space.noise / scale**2
+    tells = noise < 1.0  # of a score's own variance: others have noise alone, or were copied into all files
+    tells |= not tells.any()
     common = {
-        name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
+        name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise)[tells])))
         for name in _POOLED_VARIANCES
         if name in first[0].variances
     }
