@@ -18,6 +18,7 @@ from tire_pipeline.concealed.real.put_in import (
     RecordedSession,
     friction_work,
     put_in,
+    way_rolled_by,
 )
 from tire_pipeline.concealed.real.sources import SOURCES, development_list, pool, sweeps
 from tire_pipeline.magic_formula import TireModel
@@ -198,6 +199,17 @@ def test_a_sweep_that_is_held_out_has_the_wear_of_its_recording(run):
     worn = put_in(frame, {"wear": -0.1}, session, {"wear": PLAIN})
     by_itself = put_in(held, {"wear": -0.1}, session, {"wear": PLAIN})
     np.testing.assert_allclose(by_itself["fy"], worn["fy"][held.index], rtol=1e-3)
+
+
+def test_a_wheel_rolls_on_in_a_sweep_that_is_held_out(run):
+    """Its angle began anew, so that whoever carried the wave on was wrong: 1.84 times the error."""
+    frame, session = run
+    shown, held = frame[frame["piece"] == 0], frame[frame["piece"] == 1]
+    session = replace(session, rolled=(shown["time"].to_numpy(), way_rolled_by(shown)))
+    whole = put_in(frame, {"nonuniformity": 0.01}, session, {"nonuniformity": PLAIN})
+    by_itself = put_in(held, {"nonuniformity": 0.01}, session, {"nonuniformity": PLAIN})
+    np.testing.assert_allclose(by_itself["fy"], whole["fy"][held.index], atol=1.0)
+    assert np.abs(whole["fy"] - frame["fy"])[held.index].max() > 100.0
 
 
 def test_a_lag_in_distance_is_shorter_at_speed(run):

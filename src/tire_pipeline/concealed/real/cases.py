@@ -22,6 +22,7 @@ from tire_pipeline.concealed.real.put_in import (
     RecordedSession,
     draw_details,
     friction_work,
+    way_rolled_by,
     put_in,
 )
 from tire_pipeline.concealed.real.sources import UNLOADED_RADIUS, Pool, Sweep, pool
@@ -218,7 +219,7 @@ def _rate(
 
 def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedSession:
     timed = "time" in raw
-    work = friction_work(raw)
+    work, clock = friction_work(raw), raw["time"].to_numpy() if timed else np.arange(len(raw))
     return RecordedSession(
         formula=formula,
         start=float(raw["time"].iloc[0]) if timed else 0.0,
@@ -230,7 +231,8 @@ def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedS
         largest=float(raw["fy"].abs().max()),
         opposing=float(np.sign(np.corrcoef(raw["slip_angle"], raw["fy"])[0, 1])) or 1.0,
         radius=UNLOADED_RADIUS[layout.shown[0].source],
-        done=(raw["time"].to_numpy() if timed else np.arange(len(raw)), work),
+        done=(clock, work),
+        rolled=(clock, way_rolled_by(raw)),
     )
 
 

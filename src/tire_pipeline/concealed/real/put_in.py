@@ -46,6 +46,8 @@ class RecordedSession:
     done : tuple of ndarray, shape (n,)
         Times, s, and the friction work that the recording has done by then, J. A sweep that is held out of it
         has the same tire.
+    rolled : tuple of ndarray, shape (n,)
+        Times, s, and the way that the wheel has rolled by then, m. It rolls on in a sweep that is held out.
     """
 
     formula: TireModel
@@ -59,6 +61,7 @@ class RecordedSession:
     opposing: float
     radius: float
     done: tuple[np.ndarray, np.ndarray] = (np.zeros(1), np.zeros(1))
+    rolled: tuple[np.ndarray, np.ndarray] = (np.zeros(1), np.zeros(1))
 
 
 @dataclass(frozen=True)
@@ -172,6 +175,14 @@ def friction_work(frame: Frame) -> np.ndarray:
     return np.cumsum(power * step)
 
 
+def way_rolled_by(frame: Frame) -> np.ndarray:
+    """Way that the wheel has rolled before each sample of one run, m; it rolls on between the pieces."""
+    if "time" not in frame or "speed" not in frame:
+        return np.zeros(len(frame))
+    step = np.diff(frame["time"].to_numpy(), prepend=frame["time"].iloc[0])
+    return np.cumsum(step * frame["speed"].to_numpy())
+
+
 def _starts(pieces: np.ndarray) -> np.ndarray:
     return np.diff(pieces, prepend=pieces[0] - 1) != 0
 
@@ -244,8 +255,9 @@ def _relaxation(frame: Frame, pieces: np.ndarray, x: float, s: RecordedSession, 
 
 def _once_a_turn(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, d: Details) -> Frame:
     """A crooked wheel: the slip angle that the tire sees swings by ``x`` rad once a turn."""
-    step = np.diff(frame["time"].to_numpy(), prepend=frame["time"].iloc[0])
-    turn = np.cumsum(step * frame["speed"].to_numpy()) / s.radius + d.phase
+    first, (times, way) = float(frame["time"].iloc[0]), s.rolled
+    before = np.interp(first, times, way) + max(first - times[-1], 0.0) * frame["speed"].iloc[0]
+    turn = (before + way_rolled_by(frame)) / s.radius + d.phase
     wobbling = frame.assign(slip_angle=frame["slip_angle"] + x * np.sin(turn))
     change = model_forces(s.formula, wobbling)[:, 1] - model_forces(s.formula, frame)[:, 1]
     return frame.assign(fy=frame["fy"] + change)

@@ -32,15 +32,20 @@ class WheelWay:
     @cached_property
     def longest_pause(self) -> float:
         """Longest time between two samples of the recording, at least ``LONG_GAP`` usual ones, s."""
+        return max(float(np.diff(self.time).max(initial=0.0)), self._gap)
+
+    @cached_property
+    def _gap(self) -> float:
+        """From which time between two samples on there is a gap, s."""
         steps = np.diff(self.time)
-        return float(max(steps.max(), LONG_GAP * np.median(steps))) if steps.size else 0.0
+        return LONG_GAP * float(np.median(steps)) if steps.size else 0.0
 
     def running(self, time: Array) -> Array:
         """Return which samples are of a time at which the recording was running, without a gap; bool."""
         end = np.searchsorted(self.time, time)
         between = (end > 0) & (end < self.time.size)
         steps = self.time[end[between]] - self.time[end[between] - 1]
-        between[between] = steps <= LONG_GAP * float(np.median(np.diff(self.time)))
+        between[between] = steps <= self._gap
         return between
 
     def own(self, time: Array, load: Array) -> Array:
@@ -51,8 +56,8 @@ class WheelWay:
     def at(self, time: Array, load: Array, speed: Array | None = None) -> Array:
         """Return how far the wheel had rolled, m, shape as ``time``; NaN where nobody knows.
 
-        It is known in samples of this recording. It is known in those that follow it, too, as far as no pause
-        is longer than those of the recording: the wheel rolls on. Elsewhere its angle is unknown, and what
+        It is known in samples of this recording. It is known in those that follow it without a gap, too: the
+        wheel rolls on. In a gap it may stop. Elsewhere its angle is unknown, and what
         repeats once a turn would be added at a wrong angle. A recording with other samples of the same time
         has a clock of its own, and does not follow.
 
@@ -69,7 +74,7 @@ class WheelWay:
         if speed is None or not after.size or np.any(self.running(time) & ~own):
             return way
         steps = np.diff(time[after], prepend=self.time[-1])
-        breaks = ~((steps > 0.0) & (steps <= self.longest_pause))
+        breaks = ~((steps > 0.0) & (steps <= self._gap))
         follows = after[: int(np.argmax(breaks)) if breaks.any() else after.size]
         fast = np.abs(speed[follows])
         mean = 0.5 * (fast + np.r_[fast[:1], fast[:-1]])
