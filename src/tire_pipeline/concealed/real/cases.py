@@ -22,8 +22,8 @@ from tire_pipeline.concealed.real.put_in import (
     RecordedSession,
     draw_details,
     friction_work,
-    way_rolled_by,
     put_in,
+    way_rolled_by,
 )
 from tire_pipeline.concealed.real.sources import UNLOADED_RADIUS, Pool, Sweep, pool
 from tire_pipeline.errors import DomainError, RecordingError
