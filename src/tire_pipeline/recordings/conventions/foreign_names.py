@@ -1,4 +1,4 @@
-"""German and French names of the channels, as DIN ISO 8855 and NF ISO 8855 have them and rigs print them.
+"""German and French names of the channels, as rigs and textbooks print them; no standard was looked up.
 
 Only words that mean one quantity at a tire are here. A word that may be another one is not, so that it is
 asked about: ``Luftdruck`` (of the tire or of the weather), ``Drehzahl`` (of the wheel or of a motor),

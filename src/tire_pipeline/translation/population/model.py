@@ -102,6 +102,9 @@ class CurveMixedModel:
         Classes of tires that no metadata names.
     protocols : Protocols
         Categories that changed how they measure.
+    tells_unbiased : bool
+        Whether a property is changed only as far as its source probably measures it otherwise. Models that
+        were fitted before version 5 change all of it, and translate as they did.
     """
 
     space: CurveSpace
@@ -116,6 +119,7 @@ class CurveMixedModel:
     links: FitLinks
     classes: TireClasses | None = None
     protocols: Protocols = NO_PROTOCOL_CHANGE
+    tells_unbiased: bool = True
 
     def blocks(
         self, table: pd.DataFrame, category: np.ndarray, protocol: np.ndarray
@@ -263,6 +267,8 @@ class CurveMixedModel:
 
         One whose way of measuring changed, or all if the target's did, certainly do.
         """
+        if not self.tells_unbiased:
+            return np.ones((len(self.categories), len(self.fitted)))
         columns = {name: columns_of(self, name) for name in CATEGORY_BLOCKS if name in self._blocks}
         place = self.categories.index(target)
         found = probability_of_difference(self.fitted, self.space, columns, len(self.categories), place)
@@ -285,6 +291,7 @@ class CurveMixedModel:
             **self.metadata.to_state(),
             "categories": np.array(self.categories, dtype=str),
             "pairs": bool(self.pairs),
+            "tells_unbiased": bool(self.tells_unbiased),
             "scale": self.scale,
             "spread": self.spread,
             "alone": self.alone,
@@ -322,6 +329,7 @@ class CurveMixedModel:
             FitLinks.from_state(state, len(fitted)),
             TireClasses.from_state(state) if "class_own" in state else None,
             Protocols.from_state(state),
+            bool(state.get("tells_unbiased", False)),
         )
 
 

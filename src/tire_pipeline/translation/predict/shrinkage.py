@@ -40,7 +40,7 @@ def shortened(model: CurveMixedModel, found: Prediction) -> Prediction:
         share = VARIANCE_WEIGHT * variance / np.maximum(size + VARIANCE_WEIGHT * variance, 1e-12)
         moved = target[:, place] - share[:, None] * found.shift[:, place]
         source, differs = found.source[:, place], found.differs[:, place]
-        target[:, place] = source + differs * (moved - source)
+        target[:, place] = moved - (1.0 - differs) * (moved - source)
     return replace(found, target=target)
 
 
