@@ -55,7 +55,7 @@ def test_few_files_are_counted_in_the_message():
 
 
 def test_files_that_lie_in_no_folder_are_of_no_organisation(monkeypatch):
-    """All of them counted as one organisation without a name."""
+    """They were treated as the files of one more organisation, which had no name."""
     monkeypatch.setitem(COUNTS, "", 5)
     kept, report = _keep(2)
     assert set(kept["category"]) == {"a_lab", "b_lab", "c_lab"}

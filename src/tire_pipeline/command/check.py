@@ -108,13 +108,12 @@ def _first(channels: Grid) -> Grid:
     from tire_pipeline.recordings.conventions.canonical import STRANGE_NAMED
     from tire_pipeline.recordings.conventions.channel_names import find_channel
 
-    strange = [row for row in channels.rows if find_channel(row[0]) is None]
-    more = strange[STRANGE_NAMED:]
+    strange = [row[0] for row in channels.rows if find_channel(row[0]) is None]
+    more = set(strange[STRANGE_NAMED:])
     if not more:
         return channels
-    left = set(map(id, more))
     title = f"{channels.title}; --json has {len(more):,} more columns of no known name"
-    return Grid(channels.header, [row for row in channels.rows if id(row) not in left], title)
+    return Grid(channels.header, [row for row in channels.rows if row[0] not in more], title)
 
 
 def _count(number: int, what: str) -> str:

@@ -88,3 +88,17 @@ def test_a_recording_with_a_clock_of_its_own_follows_nothing():
     assert np.isnan(rolled.at(time, load + 1.0, speed)).all()
     beyond = np.isfinite(rolled.at(time[900:], load[900:], speed[900:]))
     assert beyond.all()
+
+
+def test_no_part_is_said_to_be_added_where_the_wheel_is_left_out(tire, record):
+    """After a gap the notes said both that the wave is left out and that a part of it is added."""
+    run = record(0)
+    first, rest = run[run["time"] < 75.0], run[run["time"] >= 75.0]
+    data = prepare(tire, first).data
+    wave = {**catalogue()["nonuniformity"].zeros(data), "cosine_y": 200.0, "radius": data.nominal.radius}
+    changes = (("nonuniformity", wave),)
+    rolled = WheelWay(data.time, first["normal_load"].to_numpy(), data.wheel.way)
+    goes = going_on(data, changes, rolled, lambda own: 0.4)
+    corrected = CorrectedModel(tire, changes, ("fy",), rolled=rolled, going_on=goes)
+    (note,) = corrected.predict(rest.assign(time=rest["time"] + 10.0)).attrs["notes"]
+    assert "left out at 100.0% of the samples" in note

@@ -28,6 +28,11 @@ def turns(change: Change) -> bool:
     return catalogue()[change[0]].quarter_turn(change[1]) is not None
 
 
+def _goes_on(change: Change, data: Data) -> bool:
+    """Whether an effect is added in part after the recording that was explained."""
+    return goes_with_time(change, data) or turns(change)
+
+
 def going_on(
     data: Data, changes: Sequence[Change], rolled: WheelWay | None, confirmed: Callable[[list[int]], float]
 ) -> GoingOn | None:
@@ -43,7 +48,7 @@ def going_on(
     confirmed : callable
         Which of the effects go with time or turn, by number -> the part that is added.
     """
-    own = [i for i, change in enumerate(changes) if goes_with_time(change, data) or turns(change)]
+    own = [i for i, change in enumerate(changes) if _goes_on(change, data)]
     if not own or rolled is None:
         return None
     return GoingOn(rolled, data.time_line, data.step, data.states.power, confirmed(own))
@@ -72,11 +77,6 @@ class GoingOn:
     power: Array | None
     part: float
 
-    @property
-    def last(self) -> float:
-        """Time of its last sample, s."""
-        return float(self.rolled.time[-1])
-
     def put_into(self, data: Data) -> Data:
         """Return a recording to predict with states that go by the clock of the one that was explained."""
         if data.states.power is None or self.power is None or self.another_session(data):
@@ -88,7 +88,7 @@ class GoingOn:
 
         Nobody knows then whether the tire was changed. It counts as new and cold: that changes less.
         """
-        return data.time is not None and float(data.time[0]) > self.last + self.rolled.longest_pause
+        return data.time is not None and float(data.time[0]) > self.rolled.last + self.rolled.longest_pause
 
     def another_clock(self, data: Data) -> bool:
         """Whether a recording has samples while the one that was explained was running, and none of its own.
@@ -101,7 +101,7 @@ class GoingOn:
 
     def after(self, data: Data) -> Array:
         """Return which samples are after the recording that was explained, bool, shape (n,)."""
-        return np.zeros(data.size, bool) if data.time is None else data.time > self.last
+        return np.zeros(data.size, bool) if data.time is None else data.time > self.rolled.last
 
     def added(
         self, data: Data, changes: Sequence[Change], add: Callable[[Sequence[Change]], dict[str, Array]]
@@ -114,7 +114,7 @@ class GoingOn:
         if self.another_clock(data):
             return add([change for change in changes if not catalogue()[change[0]].by_clock])
         whole, after = add(changes), self.after(data)
-        lasting = [change for change in changes if not (goes_with_time(change, data) or turns(change))]
+        lasting = [change for change in changes if not _goes_on(change, data)]
         if len(lasting) == len(changes) or not after.any():
             return whole
         rest, part = add(lasting), np.where(after, self.part, 1.0)
@@ -129,22 +129,30 @@ class GoingOn:
                 for change in changes
                 if catalogue()[change[0]].by_clock
             ]
-        share, notes = float(np.mean(self.after(data))), []
+        after = self.after(data)
+        known = after if data.wheel.known_way is None else after & np.isfinite(data.wheel.known_way)
         anew = "; wear and heat begin anew, after a longer pause" if self.another_session(data) else ""
-        of_time = [change for change in changes if goes_with_time(change, data)]
-        turning = [change for change in changes if turns(change)]
-        for these, so in (
-            (of_time, "nothing goes further there than it was at the end, and "),
-            (turning, ""),
-        ):
-            if these and share:
-                titles = " and ".join(catalogue()[name].title for name, _ in these)
-                notes.append(
-                    f"{titles}: {share:.1%} of the samples are after the recording that was explained; {so}"
-                    f"{self.part:.0%} of the change is added, as far as earlier sweeps predicted later ones"
-                    f"{'' if these is turning else anew}"
-                )
-        return notes
+        return [
+            *self._added_there(
+                [change for change in changes if goes_with_time(change, data)],
+                after,
+                "nothing goes further there than it was at the end, and ",
+                anew,
+            ),
+            *self._added_there([change for change in changes if turns(change)], known),
+        ]
+
+    def _added_there(
+        self, changes: Sequence[Change], after: Array, so: str = "", anew: str = ""
+    ) -> list[str]:
+        """Say which part of some effects is added after the recording that was explained."""
+        if not changes or not after.any():
+            return []
+        titles = " and ".join(catalogue()[name].title for name, _ in changes)
+        return [
+            f"{titles}: {np.mean(after):.1%} of the samples are after the recording that was explained; {so}"
+            f"{self.part:.0%} of the change is added, as far as earlier sweeps predicted later ones{anew}"
+        ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 
 import numpy as np
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit, moved
-from tire_pipeline.mismatch.model.blocks import whole_sweeps
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.nested import FOLDS
-from tire_pipeline.mismatch.proof.never_worse import confirmed_part, size_over_largest
+from tire_pipeline.mismatch.proof.never_worse import confirmed_by_later, fifths, size_over_largest
 
 Array = np.ndarray
 
@@ -34,7 +33,7 @@ def confirmed_later(analysis: Analysis, fit: Fit, own: Collection[int]) -> float
         Those of them, by number, that go with time or turn.
     """
     data, count = analysis.data, analysis.system.count
-    fold = np.arange(count) * FOLDS // count
+    fold = fifths(np.arange(count))
     before = residual(data, [change for i, change in enumerate(fit.changes) if i not in own])
     whole, after = residual(data, fit.changes), {o: r.copy() for o, r in before.items()}
     of_time = np.array([i in own for i, _ in fit.labels], bool)
@@ -45,14 +44,9 @@ def confirmed_later(analysis: Analysis, fit: Fit, own: Collection[int]) -> float
         for o in after:
             after[o][rows] = left[o][rows]
     later = fold[analysis.block] > 0
-
-    def there(left: Mapping[str, Array]) -> dict[str, Array]:
-        return {o: r[later] for o, r in left.items()}
-
-    if not later.any():
+    part = confirmed_by_later(before, after, analysis.largest, analysis.block)
+    if part == 0.0:
         return 0.0
-    sweep = whole_sweeps(analysis.block)[later]
-    part = confirmed_part(there(before), there(after), analysis.largest, sweep)
     predicted, all_of_it = (
         size_over_largest({o: (before[o] - r[o])[later] for o in before}, analysis.largest)
         for r in (after, whole)

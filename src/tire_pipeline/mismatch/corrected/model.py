@@ -217,7 +217,7 @@ class CorrectedModel:
         """Add the unnamed equation to the forces, and say where it fades."""
         if self.unnamed is None:
             return []
-        last = np.inf if self.rolled is None else float(self.rolled.time[-1])
+        last = np.inf if self.rolled is None else self.rolled.last
         return put_equation(self.unnamed, data, self.changes, forces, last, self.unnamed_later)
 
     def _of_unknown_phase(self, data: Data) -> list[str]:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.model.wheel import way_rolled
 from tire_pipeline.recordings.check import LONG_GAP
 
 Array = np.ndarray
@@ -28,6 +29,11 @@ class WheelWay:
     time: Array
     load: Array
     way: Array
+
+    @property
+    def last(self) -> float:
+        """Time of the last sample, s."""
+        return float(self.time[-1])
 
     @cached_property
     def longest_pause(self) -> float:
@@ -57,9 +63,9 @@ class WheelWay:
         """Return how far the wheel had rolled, m, shape as ``time``; NaN where nobody knows.
 
         It is known in samples of this recording. It is known in those that follow it without a gap, too: the
-        wheel rolls on. In a gap it may stop. Elsewhere its angle is unknown, and what
-        repeats once a turn would be added at a wrong angle. A recording with other samples of the same time
-        has a clock of its own, and does not follow.
+        wheel rolls on. In a gap it may stop. Elsewhere its angle is unknown, and what repeats once a turn
+        would be added at a wrong angle. A recording with other samples of the same time has a clock of its
+        own, and does not follow.
 
         Parameters
         ----------
@@ -70,15 +76,15 @@ class WheelWay:
         """
         own = self.own(time, load)
         way = np.where(own, self.way[self._near(time)], np.nan)
-        after = np.flatnonzero(time > self.time[-1])
+        after = np.flatnonzero(time > self.last)
         if speed is None or not after.size or np.any(self.running(time) & ~own):
             return way
-        steps = np.diff(time[after], prepend=self.time[-1])
+        steps = np.diff(time[after], prepend=self.last)
         breaks = ~((steps > 0.0) & (steps <= self._gap))
         follows = after[: int(np.argmax(breaks)) if breaks.any() else after.size]
-        fast = np.abs(speed[follows])
-        mean = 0.5 * (fast + np.r_[fast[:1], fast[:-1]])
-        way[follows] = self.way[-1] + np.cumsum(mean * steps[: follows.size])
+        if follows.size:  # the wheel comes to the first of them at its speed
+            rolled = way_rolled(speed[np.r_[follows[0], follows]], np.r_[self.last, time[follows]])
+            way[follows] = self.way[-1] + rolled[1:]
         return way
 
     def _near(self, time: Array) -> Array:

@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.blocks import whole_sweeps
 from tire_pipeline.mismatch.model.residual import partly, residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.nested import RepeatedChoice
+from tire_pipeline.mismatch.proof.nested import FOLDS, RepeatedChoice
 
 Array = np.ndarray
 
@@ -130,6 +130,30 @@ def confirmed_part(
     off = product - mean * square
     error = float(np.sqrt((off @ off) * count / (count - 1.0))) / total
     return float(np.clip(mean - error, 0.0, 1.0))
+
+
+def fifths(block: Array) -> Array:
+    """Return in which fifth of the sweeps each sample is, 0 to 4; shape (n,)."""
+    return block * FOLDS // (int(block.max()) + 1)
+
+
+def confirmed_by_later(
+    before: Mapping[str, Array], after: Mapping[str, Array], largest: Mapping[str, float], block: Array
+) -> float:
+    """Return :func:`confirmed_part` by the sweeps after the first fifth, which those before them predict.
+
+    Parameters
+    ----------
+    before, after, largest
+        As for :func:`confirmed_part`, of all samples.
+    block : ndarray of int, shape (n,)
+        Sweep of each sample.
+    """
+    later = fifths(block) > 0
+    if not later.any():
+        return 0.0
+    left, changed = ({o: r[later] for o, r in each.items()} for each in (before, after))
+    return confirmed_part(left, changed, largest, whole_sweeps(block)[later])
 
 
 def size_over_largest(left: Mapping[str, Array], largest: Mapping[str, float]) -> float:

@@ -39,24 +39,26 @@ def denoise(x: Array, start: Array) -> Array:
     firsts = np.flatnonzero(start)
     pieces = [slice(*ends) for ends in zip(firsts, np.append(firsts[1:], x.size), strict=True)]
     long = [p for p in pieces if pywt.dwt_max_level(p.stop - p.start, _WAVELET) > 1]
-    sigma = _noise([x[piece] for piece in long])
+    levels = [pywt.wavedec(x[piece], _WAVELET, _BEYOND_THE_ENDS) for piece in long]
+    sigma = _noise(levels)
     if sigma <= np.finfo(float).eps * float(np.abs(x).max(initial=0.0)):
         return x
     if np.std(x) < _NOISE_ONLY * sigma:
         return np.full_like(x, np.mean(x))
     out = x.copy()
-    for piece in long:
-        slowest, *faster = pywt.wavedec(x[piece], _WAVELET, _BEYOND_THE_ENDS)
+    for piece, (slowest, *faster) in zip(long, levels, strict=True):
         chance = sigma * np.sqrt(2.0 * np.log(x[piece].size))  # the largest of as many by chance
         kept = [slowest, *(pywt.threshold(level, chance, "garrote") for level in faster)]
         out[piece] = pywt.waverec(kept, _WAVELET, _BEYOND_THE_ENDS)[: x[piece].size]
     return out
 
 
-def _noise(pieces: list[Array]) -> float:
+def _noise(levels: list[list[Array]]) -> float:
     """Size of the noise, by the median wavelet of the second level; zero for a set point.
 
     Filters of sensors take more off the first level, of neighbouring samples.
     """
-    second = [pywt.wavedec(piece, _WAVELET, _BEYOND_THE_ENDS, level=2)[1] for piece in pieces]
-    return float(np.median(np.abs(np.concatenate(second)))) / scipy.stats.halfnorm.median() if second else 0.0
+    if not levels:
+        return 0.0
+    second = np.concatenate([each[-2] for each in levels])
+    return float(np.median(np.abs(second))) / scipy.stats.halfnorm.median()

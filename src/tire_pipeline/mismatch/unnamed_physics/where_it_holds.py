@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from tire_pipeline.mismatch.model.blocks import whole_sweeps
 from tire_pipeline.mismatch.model.channels import DOES_NOTHING, largest
 from tire_pipeline.mismatch.proof.nested import FOLDS
-from tire_pipeline.mismatch.proof.never_worse import confirmed_part
+from tire_pipeline.mismatch.proof.never_worse import confirmed_by_later, fifths
 from tire_pipeline.mismatch.unnamed_physics.found import FADE
 from tire_pipeline.mismatch.unnamed_physics.language.grammar import SymbolTable, evaluate, number, parse
 from tire_pipeline.mismatch.unnamed_physics.library import Factor
@@ -70,7 +69,7 @@ def part_that_later_sweeps_confirm(
     block : ndarray of int, shape (n,)
         Sweep of each sample.
     """
-    fold = block * FOLDS // (int(block.max()) + 1)
+    fold = fifths(block)
     x = {o: np.column_stack([term[o] for term in terms]) / largest_force[o] for o in rest}
     left = {o: r.copy() for o, r in rest.items()}
     for fifth in range(1, FOLDS):
@@ -80,9 +79,7 @@ def part_that_later_sweeps_confirm(
         size = np.linalg.lstsq(columns, wanted)[0]
         for o, r in left.items():
             r[later] -= x[o][later] @ size * largest_force[o]
-    known = fold > 0
-    before, after = ({o: r[known] for o, r in each.items()} for each in (rest, left))
-    return confirmed_part(before, after, largest_force, whole_sweeps(block)[known]) if known.any() else 0.0
+    return confirmed_by_later(rest, left, largest_force, block)
 
 
 def way_through_play(factor: Factor, table: SymbolTable) -> tuple[str, tuple[float, float]] | None:

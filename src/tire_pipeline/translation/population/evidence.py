@@ -18,8 +18,6 @@ from tire_pipeline.translation.population.mixed_effects import Fitted
 CATEGORY_BLOCKS = ("category", "category_metadata", "category_kind", "category_class")
 """The blocks of the mixed model that say what a category does, each category in as many columns."""
 
-_LARGEST_LOG_ODDS = 50.0
-
 
 def probability_of_difference(
     fitted: tuple[Fitted, ...], space: CurveSpace, columns: dict[str, slice], categories: int, target: int
@@ -51,8 +49,7 @@ def probability_of_difference(
             [log_odds_of_difference(one, columns, categories, category, target) for one in fitted]
         )
         for place in space.slices.values():
-            both = np.clip(odds[place].sum(), -_LARGEST_LOG_ODDS, _LARGEST_LOG_ODDS)
-            probability[category, place] = expit(both)
+            probability[category, place] = expit(odds[place].sum())
     return probability
 
 

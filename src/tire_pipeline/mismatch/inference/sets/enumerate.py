@@ -93,9 +93,9 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     for names in _triples(fits, found):
         fits.fit(names)
     swapped_in: list[Names] = []
-    while swapped_in != _best_of_each_size(fits):  # a swap may find a likelier set, whose own swaps are due
-        swapped_in = _best_of_each_size(fits)
-        for names in _swapped(fits, found):
+    while swapped_in != (best := [fits.likeliest(count) for count in (1, 2, 3)]):
+        swapped_in = best  # a swap may find a likelier set, whose own swaps are due
+        for names in _swapped(best, fits, found):
             fits.fit(names)
     return Enumerated(products, likelihood, _with_forms(products, fits))
 
@@ -238,11 +238,7 @@ def _triples(fits: _Fits, found: Screened) -> list[Names]:
     return triples
 
 
-def _best_of_each_size(fits: _Fits) -> list[Names]:
-    return [fits.likeliest(count) for count in (1, 2, 3)]
-
-
-def _swapped(fits: _Fits, found: Screened) -> list[Names]:
+def _swapped(likeliest: Sequence[Names], fits: _Fits, found: Screened) -> list[Names]:
     """Return the likeliest single effect, pair and triple with a like effect in place of one of them.
 
     Without these an effect is not told from what looks like it, but taken for it. The screen may have left
@@ -251,7 +247,7 @@ def _swapped(fits: _Fits, found: Screened) -> list[Names]:
     steady = fits.likelihood.unknown.steady
     return [
         tuple(sorted((*(set(best) - {name}), other)))
-        for best in _best_of_each_size(fits)
+        for best in likeliest
         for name in best
         for other in found.forms
         if other not in best and look_alike(name, other, steady)
