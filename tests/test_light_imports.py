@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import subprocess
 import sys
@@ -77,11 +78,16 @@ def test_a_run_says_that_it_starts_before_what_is_slow_is_imported():
     assert modules.isdisjoint({*HEAVY, *SLOW, "pandas", "numba"} - {"kedro"})
 
 
-def test_the_names_that_are_imported_on_demand_are_there():
-    import tire_pipeline.mismatch as mismatch
+@pytest.mark.parametrize("package", ["magic_formula", "recordings", "mismatch"])
+def test_a_package_loads_no_compiler_before_forces_are_asked_for(package):
+    assert "numba" not in loaded(f"import tire_pipeline.{package}")
 
-    assert {name: getattr(mismatch, name).__name__ for name in mismatch.__all__} == {
-        name: name for name in mismatch.__all__
-    }
+
+@pytest.mark.parametrize("package", ["magic_formula", "magic_formula.fitting", "mismatch"])
+def test_the_names_that_are_imported_on_demand_are_there(package):
+    """A constant has no name of its own."""
+    module = importlib.import_module(f"tire_pipeline.{package}")
+    values = {name: getattr(module, name) for name in module.__all__}
+    assert all(getattr(value, "__name__", name) == name for name, value in values.items())
     with pytest.raises(AttributeError, match="explain_missmatch"):
-        _ = mismatch.explain_missmatch
+        _ = module.explain_missmatch

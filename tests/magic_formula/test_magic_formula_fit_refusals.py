@@ -9,7 +9,7 @@ import pytest
 from tire_pipeline.errors import DomainError, RecordingError, TirValueError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
-from tire_pipeline.magic_formula.fitting.setup.checked import FIT_LOSSES
+from tire_pipeline.magic_formula.fitting.setup.arguments import FIT_LOSSES
 from tire_pipeline.tir import read_tir
 
 TIRE = TireModel.from_coefficients(

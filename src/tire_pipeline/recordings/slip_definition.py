@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.magic_formula.fitting.least_squares.search import rows_of_one
 from tire_pipeline.magic_formula.fitting.setup.measured import locked_parts
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.fitting.setup.unlike_tires import MOST_ROLLING_RESISTANCE, braked_at_no_slip
+from tire_pipeline.numerics.independent_rows import rows_of_one
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.issue import Issue
 from tire_pipeline.recordings.physical_signs import FEWEST_ROWS, STRAIGHT

@@ -19,7 +19,7 @@ from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
-from tire_pipeline.magic_formula.fitting.setup.checked import check_arguments
+from tire_pipeline.magic_formula.fitting.setup.arguments import check_arguments
 from tire_pipeline.magic_formula.fitting.setup.coverage import ONE_PRESSURE, PRESSURE_WITH_LOAD
 from tire_pipeline.magic_formula.fitting.setup.lone_points import without_lone_points
 from tire_pipeline.magic_formula.fitting.setup.measured import FEWEST_POINTS, columns

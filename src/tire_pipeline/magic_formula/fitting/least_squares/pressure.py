@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.least_squares.search import ROBUST_WIDTH, noise, rows_of_one
+from tire_pipeline.magic_formula.fitting.least_squares.search import ROBUST_WIDTH, noise
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem, minimum
 from tire_pipeline.magic_formula.fitting.setup.typical import Pull
+from tire_pipeline.numerics.independent_rows import rows_of_one
 
 PRESSURE_SLACK = 0.03
 """A fit whose pressures cannot determine their coefficients leaves this much more than the least: as much as

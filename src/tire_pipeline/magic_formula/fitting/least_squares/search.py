@@ -10,6 +10,7 @@ import numpy as np
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem, minimum, quick
 from tire_pipeline.magic_formula.fitting.setup import typical
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import LOAD, ONE_SIDED_RATIO, ONE_SIDED_SLIP
+from tire_pipeline.numerics.independent_rows import rows_of_one
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
@@ -191,23 +192,6 @@ def noise(problem: Problem, values: np.ndarray, loss: str) -> float:
         return float(np.sqrt(np.mean(residuals**2) / freedom))
     middle = float(np.median(np.abs(residuals - np.median(residuals))))
     return 1.4826 * middle / np.sqrt(freedom)
-
-
-def rows_of_one(residuals: np.ndarray) -> float:
-    """Return how many rows carry as much information as one independent row.
-
-    The sum of the autocorrelation, as far as pairs of lags stay positive (Geyer's initial sequence).
-    """
-    centred = residuals - residuals.mean()
-    size = centred.size
-    spectrum = np.fft.rfft(centred, 2 * size)
-    correlation = np.fft.irfft(spectrum * spectrum.conj())[:size]
-    if correlation[0] <= 0.0:
-        return 1.0
-    correlation /= correlation[0]
-    pairs = correlation[1 : size - (size - 1) % 2].reshape(-1, 2).sum(axis=1)
-    stop = int(np.argmax(pairs <= 0.0)) if (pairs <= 0.0).any() else pairs.size
-    return float(np.clip(1.0 + 2.0 * pairs[:stop].sum(), 1.0, max(size / 10.0, 1.0)))
 
 
 def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> StageFit:
