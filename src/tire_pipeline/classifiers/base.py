@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 
-from tire_pipeline.class_by_name import class_by_name
+from tire_pipeline.on_demand import class_by_name
 
 CLASSIFIERS: dict[str, tuple[str, str]] = {
     "random_forest": ("tire_pipeline.classifiers.methods.random_forest", "RandomForest"),

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.class_by_name import class_by_name
+from tire_pipeline.on_demand import class_by_name
 
 CURVE_LOADS = np.array([4000.0, 6000.0, 8000.0])
 """Normal loads of the thesis' force curves, N (section 4.2.2)."""

@@ -8,8 +8,8 @@ from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.class_by_name import class_by_name
 from tire_pipeline.errors import DomainError
+from tire_pipeline.on_demand import class_by_name
 from tire_pipeline.translation.result import TranslationResult
 
 TRANSLATORS: dict[str, tuple[str, str]] = {

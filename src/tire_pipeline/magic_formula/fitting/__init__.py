@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from tire_pipeline.on_demand import names_on_demand
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula.fitting.model_fit import fit_magic_formula
     from tire_pipeline.magic_formula.fitting.report.result import FitResult
     from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning
 
-_MODULE_OF_NAME = {
-    "FitResult": "report.result",
-    "PoorFitWarning": "report.verdict",
-    "fit_magic_formula": "model_fit",
-}
-
 __all__ = ["FitResult", "PoorFitWarning", "fit_magic_formula"]
 
-
-def __getattr__(name: str) -> Any:
-    """Import what is asked for, and with it SciPy's optimizers, only when it is asked for."""
-    if name in _MODULE_OF_NAME:
-        return getattr(import_module(f"{__name__}.{_MODULE_OF_NAME[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = names_on_demand(
+    __name__,
+    {
+        "FitResult": "report.result",
+        "PoorFitWarning": "report.verdict",
+        "fit_magic_formula": "model_fit",
+    },
+)

@@ -1,8 +1,8 @@
-"""Import a class only when it is asked for by its name."""
+"""Import a name only when it is asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
@@ -29,3 +29,22 @@ def class_by_name(classes: Mapping[str, tuple[str, str]], name: str, what: str) 
         raise DomainError(f"there is no {what} {name!r}", todo=f"choose one of {', '.join(classes)}")
     module, cls = classes[name]
     return getattr(import_module(module), cls)
+
+
+def names_on_demand(package: str, module_of: Mapping[str, str]) -> Callable[[str], Any]:
+    """Return the ``__getattr__`` of a package.
+
+    Parameters
+    ----------
+    package : str
+        Its name, ``__name__``.
+    module_of : mapping of str to str
+        Public name -> the module that has it, below the package.
+    """
+
+    def __getattr__(name: str) -> Any:
+        if name in module_of:
+            return getattr(import_module(f"{package}.{module_of[name]}"), name)
+        raise AttributeError(f"module {package!r} has no attribute {name!r}")
+
+    return __getattr__
