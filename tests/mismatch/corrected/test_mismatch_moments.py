@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from turned_axes import cambered, leaning, misread
 from weighed import all_but
 
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import CorrectedModel, explain_mismatch
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 MOMENTS = {"QBZ1": 8.0, "QCZ1": 1.1, "QDZ1": 0.12, "QBZ9": 10.0, "QSX1": 0.01, "QSX3": 0.03}
 
@@ -66,3 +68,19 @@ def test_a_lag_of_the_force_channels_is_one_of_the_moments(tire, record, lag):
     report = explain_mismatch(model, recording.assign(mz=late), without=all_but(lag))
     assert [e.name for e in report.effects] == [lag]
     assert report.fit["mz"].rms_after < 0.5 * report.fit["mz"].rms_before
+
+
+@pytest.mark.parametrize(
+    "channels", [("slip_angle", "fy", "mz"), ("slip_angle", "fy")], ids=["turned", "as it is"]
+)
+def test_an_aligning_moment_has_the_other_sign_with_the_side_force_if_the_recording_says_so(tire, channels):
+    """The moment of a file in SAE axes stood on the other side of the recorded one: 3 N m became 20."""
+    model = leaning(TireModel.from_coefficients({**tire.coefficients, **MOMENTS}, version="5.2"))
+    recording = cambered(tire, 0)
+    at = {c: recording[c].to_numpy() for c in ("slip_angle", "camber", "normal_load")}
+    recording = misread(recording.assign(mz=model.forces(**at).mz), channels, 1.0)
+    prepared = prepare(model, recording)
+    assert prepared.factors == dict.fromkeys(channels, -1.0)
+    assert [f.channel for f in prepared.findings] == [", ".join(channels)]
+    plain = CorrectedModel(model, (), ("fy",), moments=("mz",), factors=prepared.factors)
+    assert np.allclose(plain.predict(recording)["mz"], recording["mz"])

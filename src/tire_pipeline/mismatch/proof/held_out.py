@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.model.channels import span, white_noise
+from tire_pipeline.mismatch.model.channels import DOES_NOTHING, span, white_noise
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import partly, residual, rms, root_ratio_interval
@@ -93,8 +93,8 @@ def prove_moments(analysis: Analysis, allowed: Guarded) -> dict[str, OutputFit]:
 
 
 def made_worse(moments: Mapping[str, OutputFit]) -> dict[str, OutputFit]:
-    """Return the moments whose error grows with what was found, with 95% certainty."""
-    return {o: f for o, f in moments.items() if f.rms_after_low > f.rms_before}
+    """Return the moments whose error grows with what was found: nothing but forces was fitted."""
+    return {o: f for o, f in moments.items() if f.rms_after > f.rms_before * (1.0 + DOES_NOTHING)}
 
 
 def recorded_moments(data: Data) -> tuple[str, ...]:

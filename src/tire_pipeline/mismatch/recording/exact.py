@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import ALIGNING_MOMENT
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
-from tire_pipeline.mismatch.effects.sensor.sign_convention import beside_sae, turned
+from tire_pipeline.mismatch.effects.sensor.sign_convention import beside_sae, turned, with_moment
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
 from tire_pipeline.mismatch.model.plain_forces import forces_at
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -96,7 +98,25 @@ def repair(
                 again = True
         if not again:
             break
-    return [*findings, *turned(signs)], bad, factors
+    signs = turned(signs)
+    if factors.get("fy", 1.0) < 0.0 and _moment_is_turned(tire, arrays, pick):
+        arrays[ALIGNING_MOMENT] = -arrays[ALIGNING_MOMENT]
+        factors[ALIGNING_MOMENT] = -1.0
+        signs = [with_moment(f) if "fy" in f.channel.split(", ") else f for f in signs]
+    return [*findings, *signs], bad, factors
+
+
+def _moment_is_turned(tire: Any, arrays: Mapping[str, Array], pick: Array) -> bool:
+    """Whether the recorded aligning moment agrees better with the model's of the other sign.
+
+    An axis system that turns the side force turns the moment about the vertical axis or leaves it: of these
+    two the likelier one is taken.
+    """
+    if ALIGNING_MOMENT not in arrays:
+        return False
+    inputs = {n: arrays[n][pick] for n in POINT_CHANNELS if n in arrays}
+    model = np.asarray(tire.forces(**inputs, limits="ignore", outputs=(ALIGNING_MOMENT,)).mz)
+    return float(np.nansum(arrays[ALIGNING_MOMENT][pick] * model)) < 0.0
 
 
 def _of_two_units(channel: str, last: Finding, findings: Iterable[Finding]) -> RecordingError:
@@ -164,7 +184,8 @@ def _as_mirrored(finding: Finding, camber: bool) -> bool:
     ``camber``: whether it was recorded, and would tell.
     """
     mirrored = {"slip_angle", "camber", "fy"} if camber else {"slip_angle", "fy"}
-    return mirrored in (set(finding.channel.split(", ")), *map(set, finding.alike))
+    turned_sets = (set(finding.channel.split(", ")), *map(set, finding.alike))
+    return any(names - {ALIGNING_MOMENT} == mirrored for names in turned_sets)
 
 
 _SIDE_OF_FILE = "see that the file is of the side on which the tire was mounted (TYRESIDE), "

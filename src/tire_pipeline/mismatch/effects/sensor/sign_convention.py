@@ -58,8 +58,8 @@ _STIFFNESS_OFF = 0.25
 class SignConvention(Effect):
     """A channel agrees with the model when its sign is turned.
 
-    Covers signs that are wrong throughout. Not covered: axes exchanged, or turned by other angles than 180
-    deg.
+    Covers signs that are wrong throughout; that of mz where fy's is. Not covered: axes exchanged, or turned
+    by other angles than 180 deg.
     """
 
     name = "sign_convention"
@@ -161,6 +161,12 @@ def turned(findings: Iterable[Finding]) -> list[Finding]:
         return findings
     names = [name for name, times in count.items() if times % 2]
     return [_finding(", ".join(names), {})] if names else []
+
+
+def with_moment(finding: Finding) -> Finding:
+    """Return a finding on signs with the aligning moment among the channels that have the other one."""
+    turned_alike = [(*names, "mz") for names in finding.alike]
+    return _finding(f"{finding.channel}, mz", {}, turned_alike)
 
 
 @dataclass(frozen=True)
@@ -304,7 +310,7 @@ def _finding(name: str, repaired: dict[str, Array], alike: Iterable[tuple[str, .
     text = f"{name} {have} the other sign"
     alike = tuple(alike)
     if alike:
-        sets = (" and ".join(s) + (" (SAE axes)" if set(s) == _SAE else "") for s in alike)
+        sets = (" and ".join(s) + (" (SAE axes)" if set(s) - {"mz"} == _SAE else "") for s in alike)
         same = " or if ".join(sets)
         text += f"; it would look the same if {same} had"
     return Finding("sign_convention", name, text, parameters, repaired, alike=alike, axes=True)
