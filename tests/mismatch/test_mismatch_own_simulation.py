@@ -48,8 +48,7 @@ def a_drive(tire, late=0.0, noise=20.0):
     t = 0.02 * np.arange(3000)
     slip = 0.08 * np.sin(2.0 * np.pi * t / 3.0) * np.sin(0.13 * t)
     load, speed = 4000.0 * (1.0 + 0.3 * np.sin(0.5 * t)), 15.0 + 8.0 * np.sin(0.05 * t)
-    gain = 1.0 - np.exp(-speed * 0.02 / late) if late else np.ones(t.size)
-    followed = first_order(slip, gain, t == 0.0)
+    followed = first_order(slip, speed * 0.02 / late, t == 0.0) if late else slip
     fy = tire.forces(slip_angle=followed, normal_load=load).fy
     fy = fy + noise * np.random.default_rng(0).standard_normal(t.size)
     return pd.DataFrame({"time": t, "slip_angle": slip, "normal_load": load, "speed": speed, "fy": fy})

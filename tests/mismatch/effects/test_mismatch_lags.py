@@ -9,6 +9,7 @@ from mismatch_shared import shared
 from weighed import named_sets
 
 from tire_pipeline.magic_formula import fit_magic_formula
+from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 
 AXLE = ["slip_angle", "normal_load", "fy"]
@@ -85,3 +86,11 @@ def test_a_steering_actuator_that_lags_is_no_relaxation_of_the_tire(rate, fitted
     rows = drive if fitted == "drive" else pd.concat([front_axle(p, rate) for p in ramps], ignore_index=True)
     sets = named_sets(fit_magic_formula(rows[AXLE], unloaded_radius=0.023).model, drive)
     assert relaxation_alone(sets) == []
+
+
+@pytest.mark.parametrize("samples", [0.02, 0.1, 0.3, 2.0, 10.0])
+def test_what_follows_a_ramp_is_behind_by_its_lag_however_short(samples):
+    """A lag of less than a seventh of a sample did nothing: its fit could not leave zero."""
+    time = np.arange(200.0)
+    behind = first_order(time, np.full(time.size, 1.0 / samples), time == 0.0)
+    assert np.allclose(time[150:] - behind[150:], samples)

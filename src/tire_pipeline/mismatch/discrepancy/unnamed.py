@@ -90,11 +90,11 @@ def _drivers(data: Data) -> Iterator[Array]:
             yield _unit(rate)
             level = x
         for lag in MEMORY_SECONDS:
-            gain = 1.0 - np.exp(-data.step / lag)
-            memory = _unit(first_order(level, gain, data.start) - level)
+            step = data.step / lag
+            memory = _unit(first_order(level, step, data.start) - level)
             yield memory
             if name in FORCE_OF_SLIP:
-                yield _from_rest(level, gain)
+                yield _from_rest(level, step)
     if data.states.power is not None and data.varies("tread_temperature"):  # else it is tread temperature
         for lag in MEMORY_SECONDS:
             yield _unit(data.states.heat(lag))
@@ -115,13 +115,13 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
     return driver - mean[cell]
 
 
-def _from_rest(level: Array, gain: Array) -> Array:
+def _from_rest(level: Array, step: Array) -> Array:
     """Follow a level with a lag, from zero at the first sample."""
     first = np.zeros(level.size, bool)
     first[0] = True
     begun = level.copy()
     begun[0] = 0.0
-    return _unit(first_order(begun, gain, first))
+    return _unit(first_order(begun, step, first))
 
 
 def _rate(data: Data, x: Array) -> Array:

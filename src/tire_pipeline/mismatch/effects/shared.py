@@ -24,14 +24,14 @@ CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
 
 
 @njit(cache=True)
-def first_order(signal: np.ndarray, gain: np.ndarray, start: np.ndarray) -> np.ndarray:
-    """Follow ``signal`` with a first-order lag whose step is ``gain``; start again where ``start``.
+def first_order(signal: np.ndarray, step: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Follow ``signal`` with a first-order lag; start again where ``start``.
 
     Parameters
     ----------
     signal : ndarray, shape (n,)
-    gain : ndarray, shape (n,)
-        ``1 - exp(-dt / lag)`` of the step that ends at each sample.
+    step : ndarray, shape (n,)
+        ``dt / lag`` of the step that ends at each sample; infinite without a lag.
     start : ndarray of bool, shape (n,)
         True at the first sample of each uninterrupted piece.
 
@@ -46,9 +46,8 @@ def first_order(signal: np.ndarray, gain: np.ndarray, start: np.ndarray) -> np.n
         if start[i]:
             previous = signal[i]
         else:
-            g = gain[i]
-            middle = signal[i] if g > 0.999 else _ramp(signal[i - 1], signal[i], g)
-            previous = previous + g * (middle - previous)
+            gain = -np.expm1(-step[i])
+            previous = previous + gain * (_ramp(signal[i - 1], signal[i], step[i], gain) - previous)
         out[i] = previous
     return out
 
@@ -76,10 +75,9 @@ def play(x: np.ndarray, width: float, start: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
-def _ramp(before: float, now: float, gain: float) -> float:
+def _ramp(before: float, now: float, step: float, gain: float) -> float:
     """Constant input that has the same effect over one step as a ramp from before to now."""
-    step = -np.log(1.0 - gain) if gain > 1e-9 else 1e-9
-    share = 1.0 / gain - 1.0 / step if gain > 1e-6 else 0.5
+    share = 1.0 / gain - 1.0 / step if step > 1e-6 else 0.5
     return now - (now - before) * (1.0 - share)
 
 

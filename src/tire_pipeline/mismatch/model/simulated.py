@@ -68,8 +68,8 @@ class BaseSimulation:
             return
         rolled = np.abs(recording.get("speed")) * recording.step
         for slip, length in self.own_relaxation.items():
-            gain = 1.0 - np.exp(-rolled / max(length, 1e-9))
-            setattr(state, slip, first_order(getattr(state, slip), gain, recording.start))
+            step = rolled / max(length, 1e-9)
+            setattr(state, slip, first_order(getattr(state, slip), step, recording.start))
 
     def forces(self, state: State) -> dict[str, Array]:
         """Return fx and fy, N, by similarity: friction m and stiffness k turn F(s) into m F(s k / m).

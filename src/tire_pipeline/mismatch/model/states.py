@@ -19,7 +19,7 @@ def followed_from_cold(power: Array, step: Array, lag: float) -> Array:
     """Return a power, shape (n,), followed with a lag of first order, s, from a cold start; ``step`` in s."""
     power, first = power.copy(), np.zeros(power.size, bool)
     power[0], first[0] = 0.0, True
-    return np.asarray(first_order(power, 1.0 - np.exp(-step / max(lag, 1e-9)), first))
+    return np.asarray(first_order(power, step / max(lag, 1e-9), first))
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,7 +30,7 @@ def memory(data: Data, name: str) -> Array:
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
     power = np.abs(data.simulation.base[name] * data.get(slip)) * speed
     power = power / max(high(power), 1e-12)
-    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in MEMORY_SECONDS]
+    lags = [first_order(power, data.step / lag, data.start) - power for lag in MEMORY_SECONDS]
     ways = (data.simulation.base[name], data.simulation.slope(slip)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
 

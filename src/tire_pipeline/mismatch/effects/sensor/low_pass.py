@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import first_order
@@ -42,8 +40,8 @@ class LowPass(Effect):
         """Filter the forces."""
         if p["lag"] <= 0.0:
             return
-        gain = 1.0 - np.exp(-data.step / p["lag"])
+        step = data.step / p["lag"]
         for name, force in state.forces.items():
-            state.forces[name] = first_order(force, gain, data.start)
+            state.forces[name] = first_order(force, step, data.start)
 
     moments = outputs

@@ -78,7 +78,7 @@ class RelaxationLength(Effect):
         """Lag the slips."""
         if p["length"] <= 0.0:
             return
-        step = data.step * np.maximum(np.abs(data.get("speed")), 0.1)
+        rolled = data.step * np.maximum(np.abs(data.get("speed")), 0.1)
         by_load = np.maximum(1.0 + p["load"] * data.nominal.load_excess(state.normal_load), 0.05)
         slips = (
             ("slip_angle", data.simulation.slope_share, 1.0),
@@ -86,8 +86,8 @@ class RelaxationLength(Effect):
         )
         for slip, share, along in slips:
             length = p["length"] * (1.0 - p["fades"] + p["fades"] * share) * by_load * along
-            gain = 1.0 - np.exp(-step / np.maximum(length, 1e-3))
-            setattr(state, slip, first_order(getattr(state, slip), gain, data.start))
+            step = rolled / np.maximum(length, 1e-9)
+            setattr(state, slip, first_order(getattr(state, slip), step, data.start))
 
     def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """PTY1, PTY2 and PTX1, so that the length at nominal load is the one found (MF 5.x).
