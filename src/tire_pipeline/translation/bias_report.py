@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curves.features import GROUPS, LOADS
+from tire_pipeline.translation.curves.features import GROUPS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS, difference, mean_of_loads
@@ -63,8 +63,11 @@ def bias_report(
     """
     model = translator.model
     pairs = list(combinations(model.categories, 2))
-    chance = _chance_of_tires(model, training)
-    regions = [_regions(model, organisation, reference, chance) for reference, organisation in pairs]
+    loads = translator.parts.loads
+    chance = _chance_of_tires(model, loads.scaled(training))
+    regions = [
+        _regions(model, organisation, reference, chance, loads.factor) for reference, organisation in pairs
+    ]
     slopes = [_slopes(model, organisation, reference) for reference, organisation in pairs]
     moved = [
         _moved(translator, training, organisation, reference)
@@ -97,12 +100,14 @@ def _contrast(model: CurveMixedModel, organisation: str, reference: str) -> np.n
     return (names == organisation).astype(float) - (names == reference).astype(float)
 
 
-def _regions(model: CurveMixedModel, organisation: str, reference: str, chance: np.ndarray) -> pd.DataFrame:
+def _regions(
+    model: CurveMixedModel, organisation: str, reference: str, chance: np.ndarray, factor: float
+) -> pd.DataFrame:
     contrast = _contrast(model, organisation, reference)
     mean, variance = difference(model, contrast, columns_of(model, "category"))
     variance = variance + np.tensordot(contrast, chance, axes=1).var(axis=0)
     rows = []
-    names = {group.name: np.array(group.names) for group in GROUPS}
+    names = {group.name: np.array([_at_load(name, factor) for name in group.names]) for group in GROUPS}
     for part, place in model.space.slices.items():
         group = PARTS[part].group
         back = model.space.back[part] * UNIT[group]
@@ -119,6 +124,12 @@ def _regions(model: CurveMixedModel, organisation: str, reference: str, chance: 
         rows, columns=["organisation", "reference", "output", "region", "unit", "bias", "low", "high"]
     )
     return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
+
+
+def _at_load(name: str, factor: float) -> str:
+    """Name of a feature at a load times a factor."""
+    what, load = name.rsplit(", ", 1)
+    return f"{what}, {factor * float(load.removesuffix(' N')):.0f} N"
 
 
 def _slopes(model: CurveMixedModel, organisation: str, reference: str) -> pd.DataFrame:
@@ -161,5 +172,4 @@ def at_each_load(report: BiasReport, region: str) -> pd.DataFrame:
     """Take one property, such as ``"cornering stiffness"``, out of ``by_region``, with its load in N."""
     own = report.by_region[report.by_region["region"].str.match(rf"{region}, \d+ N")].copy()
     own["normal_load"] = own["region"].str.extract(r"(\d+) N")[0].astype(float)
-    assert own["normal_load"].isin(LOADS).all()
     return own

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.curves.load_scale import LoadScale
 from tire_pipeline.translation.decode.scores_to_coefficients import Decoder
 from tire_pipeline.translation.judge.verdict import VerdictRules
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
@@ -30,6 +31,9 @@ class Parts:
         What a batch has taught already; None: the files that are predicted are the batch.
     decoder : Decoder
         Coefficients from scores.
+    loads : LoadScale
+        By how much the loads at which tires are compared are larger than those of car tires. All other parts
+        take and give tires that are scaled by it.
     verdict : VerdictRules
         Which files are translated.
     """
@@ -40,6 +44,7 @@ class Parts:
     decoder: Decoder
     verdict: VerdictRules
     taught: Taught | None = None
+    loads: LoadScale = field(default_factory=LoadScale)
 
     def predict(self, source: pd.DataFrame) -> Prediction:
         """Predict the target's scores of every source file."""

@@ -17,7 +17,8 @@ VERSION = "5"
 give another translation. 2: stiffness and shape are combined (:mod:`.population.fit_links`); 3:
 categories spread stiffness alike (:data:`.population.fit_model.SPREAD_WIDTH`); 4: spreads are bounded, and
 translators that learn from the batch; 5: what a supplier's own tires have in common is no bias, and a
-property is changed as far as the supplier probably measures it otherwise (:mod:`.population.evidence`)."""
+property is changed as far as the supplier probably measures it otherwise (:mod:`.population.evidence`);
+fleets of other tires than a car's are compared at their loads (:mod:`.curves.load_scale`)."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
@@ -81,6 +82,8 @@ class TranslationResult:
         did. A target that did is given by its newest protocol.
     stiffness : Band, optional
         Of the cornering stiffness (N/rad, positive), with the one slip 0.
+    normal_load : ndarray, shape (l,), optional
+        Loads at which curves were compared, N.
 
     See Also
     --------
@@ -107,6 +110,7 @@ class TranslationResult:
     method: str = ""
     protocols: pd.DataFrame = field(default_factory=pd.DataFrame)
     stiffness: Band | None = None
+    normal_load: np.ndarray | None = None
 
 
 def moved_coefficients(

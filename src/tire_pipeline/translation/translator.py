@@ -15,6 +15,8 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.composition import Parts
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
+from tire_pipeline.translation.curves.features import LOADS
+from tire_pipeline.translation.curves.load_scale import LoadScale
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS, Decoder
 from tire_pipeline.translation.judge.effects import protocol_changes
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRules
@@ -147,7 +149,8 @@ class CurveTranslator:
         DomainError
             If the table has no tire of the target, or none of any other category.
         """
-        training = with_finite_curves(training) if made is None else training
+        loads = LoadScale.fit(training) if made is None else LoadScale()
+        training = with_finite_curves(loads.scaled(training)) if made is None else training
         check_target(training, target)
         options, training = self._options, training.reset_index(drop=True)
         if self.learn_from_batch:
@@ -159,12 +162,12 @@ class CurveTranslator:
             )
         predictor = self._predictor.fit(model, training, target, seed)
         batch = BatchLearning.of(made, training) if self.learn_from_batch and made else None
-        self._parts = Parts(model, predictor, batch, Decoder.fit(training), rules)
+        self._parts = Parts(model, predictor, batch, Decoder.fit(training), rules, loads=loads)
         return self
 
     def predict(self, source: pd.DataFrame) -> Prediction:
         """Predict the target's scores of every source file."""
-        return self.parts.predict(source)
+        return self.parts.predict(self.parts.loads.scaled(source))
 
     def with_verdict(self, **changes: Any) -> Self:
         """Return the same translator with other :class:`.judge.verdict.VerdictRules`.
@@ -186,6 +189,7 @@ class CurveTranslator:
             As for :meth:`translation`.
         """
         parts = self.parts
+        source = parts.loads.scaled(source)
         rows = source.iloc[np.flatnonzero(parts.verdict.refusals(parts.model, source) == "")]
         if not len(rows):
             return np.empty(0, dtype=str), rows
@@ -248,14 +252,18 @@ class CurveTranslator:
             return self.with_verdict(farthest=float(farthest)).translation(source, bands=bands)
         parts = self.parts
         model, verdict = parts.model, parts.verdict
-        refused = verdict.refusals(model, source)
+        scaled = parts.loads.scaled(source)
+        refused = verdict.refusals(model, scaled)
         usable = np.flatnonzero(refused == "")
         table = source.copy()
         report = verdict.empty_report(model, source, refused)
         protocols = self.protocol_changes()
+        compared = LOADS * parts.loads.factor
         if not usable.size:
-            return TranslationResult(table, report, {}, pd.DataFrame(), self.method, protocols)
-        rows = source.iloc[usable]
+            return TranslationResult(
+                table, report, {}, pd.DataFrame(), self.method, protocols, normal_load=compared
+            )
+        rows = scaled.iloc[usable]
         with threadpool_limits(1):
             found = parts.predict(rows)
             moved = parts.decoder.decode(model, rows, found)
@@ -263,29 +271,35 @@ class CurveTranslator:
         act = (judged["verdict"] == TRANSLATED).to_numpy()
         changed = np.zeros(len(source), dtype=bool)
         changed[usable[act]] = True
-        table.loc[changed, list(COEFFICIENTS)] = moved.loc[act, list(COEFFICIENTS)].to_numpy()
+        names = list(COEFFICIENTS)
+        table.loc[changed, names] = parts.loads.unscaled(moved.loc[act])[names].to_numpy()
+        kept = rows.copy()
+        kept.loc[act, names] = moved.loc[act, names].to_numpy()
         for name in judged:
             report.iloc[usable, report.columns.get_loc(name)] = judged[name].to_numpy()
         return TranslationResult(
             table,
             report,
-            self._bands(table, usable, found, act) if bands else {},
+            self._bands(kept, usable, found, act, len(table)) if bands else {},
             moved_coefficients(source, table, COEFFICIENTS),
             self.method,
             protocols,
-            self._stiffness(table, usable, found, act) if bands else None,
+            self._stiffness(kept, usable, found, act, len(table)) if bands else None,
+            compared,
         )
 
     def _bands(
-        self, table: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray
+        self, kept: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray, count: int
     ) -> dict[str, Band]:
-        """Bands of all files; NaN for those that cannot be evaluated."""
-        own = curve_bands(self.model.space, table.iloc[usable], found.variance, act, pairs=self.model.pairs)
-        return {name: _among_all(band, usable, len(table)) for name, band in own.items()}
+        """Bands of all files; NaN for those that cannot be evaluated. ``kept``: the others, scaled."""
+        own = curve_bands(self.model.space, kept, found.variance, act, pairs=self.model.pairs)
+        return {name: _among_all(band, usable, count, self.parts.loads.factor) for name, band in own.items()}
 
-    def _stiffness(self, table: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray) -> Band:
-        band = stiffness_band(self.model.space, table.iloc[usable], found.variance, act)
-        return _among_all(band, usable, len(table))
+    def _stiffness(
+        self, kept: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray, count: int
+    ) -> Band:
+        band = stiffness_band(self.model.space, kept, found.variance, act)
+        return _among_all(band, usable, count, self.parts.loads.factor)
 
     def to_state(self) -> dict[str, Any]:
         """Return the arrays, strings and numbers that restore the fitted translator."""
@@ -296,6 +310,7 @@ class CurveTranslator:
             "option_learn_from_batch": self.learn_from_batch,
             "option_trust": self._options.trust,
             "coefficient_limits": parts.decoder.limits,
+            "load_factor": parts.loads.factor,
             **parts.verdict.to_state(),
             **parts.model.to_state(),
             **parts.predictor.to_state(),
@@ -312,22 +327,23 @@ class CurveTranslator:
             BatchLearning.from_state(state) if learns else None,
             Decoder(np.asarray(state["coefficient_limits"])),
             VerdictRules.from_state(state),
+            loads=LoadScale(float(state.get("load_factor", 1.0))),
         )
         options = CurveOptions(state["option_pairs"], learns, state["option_trust"])
         shared: dict[str, Any] = {"pairs": options.pairs}  # an option of every translator of curves
         return cls(**shared)._with_parts(parts, options)
 
 
-def _among_all(band: Band, usable: np.ndarray, count: int) -> Band:
-    """The band of the usable files among all; NaN for the others."""
+def _among_all(band: Band, usable: np.ndarray, count: int, factor: float) -> Band:
+    """The band of the usable files among all, loads and forces times a factor; NaN for the others."""
 
     def among_all(values: np.ndarray) -> np.ndarray:
         out = np.full((count, *values.shape[1:]), np.nan)
-        out[usable] = values
+        out[usable] = factor * values
         return out
 
     parts = [among_all(values) for values in (band.middle, band.low, band.high)]
-    return Band(band.slip, band.normal_load, *parts)
+    return Band(band.slip, factor * band.normal_load, *parts)
 
 
 class MixedModel(CurveTranslator):

@@ -10,7 +10,7 @@ import numpy as np
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.translation.curves.of_files import file_curves
 
-LEFT_ALONE = SimpleNamespace(bands={}, stiffness=None)
+LEFT_ALONE = SimpleNamespace(bands={}, stiffness=None, normal_load=None)
 
 
 def test_a_file_without_radius_has_its_forces_and_no_second_warning():

@@ -49,12 +49,13 @@ def file_curves(
         state.
     """
     bands: dict[str, Band | None] = {name: result.bands.get(name) for name in DRAWN_OUTPUTS}
-    shape = (len(files), LOADS.size, BAND_SLIP_RATIOS.size)
-    found: dict[str, Any] = {"files": list(files), "normal_load": LOADS, "slip": BAND_SLIP_RATIOS}
+    loads = LOADS if result.normal_load is None else result.normal_load
+    shape = (len(files), loads.size, BAND_SLIP_RATIOS.size)
+    found: dict[str, Any] = {"files": list(files), "normal_load": loads, "slip": BAND_SLIP_RATIOS}
     sources = {name: np.full(shape, np.nan, dtype=np.float32) for name in DRAWN_OUTPUTS}
     sources["stiffness"] = np.full(shape[:2], np.nan, dtype=np.float32)
     for i, file in track(list(enumerate(files)), "drawing the files' own curves"):
-        for name, values in _own_curves(models[file]).items():
+        for name, values in _own_curves(models[file], loads).items():
             sources[name][i] = values
     for name, source in sources.items():
         band = result.stiffness if name == "stiffness" else bands[name]
@@ -71,13 +72,13 @@ def _part(band: Band | None, part: str, shape: tuple[int, ...]) -> np.ndarray:
     return np.where(known, getattr(band, part), np.nan).reshape(shape).astype(np.float32)
 
 
-def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
+def _own_curves(model: TireModel, loads: np.ndarray) -> dict[str, np.ndarray]:
     """Curves of one model, without those that cannot be evaluated or whose levels it does not state."""
-    load = LOADS[:, None]
+    load = loads[:, None]
     found = {}
     asked: dict[str, dict[str, Any]] = {
         **{o: {slip: BAND_SLIP_RATIOS, "normal_load": load} for o, slip in SLIP_OF_FORCE.items()},
-        "stiffness": {"normal_load": LOADS},
+        "stiffness": {"normal_load": loads},
     }
     for name, points in asked.items():
         if not model.coefficients.keys() >= set(_KEYS_OF_CURVE[name]):

@@ -11,9 +11,9 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.one_nominal_load import OWN_LOAD
 from tire_pipeline.translation.base import Translator, judging
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
-from tire_pipeline.translation.judge.reach import OWN_LOAD
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, NEEDED_TO_TRANSLATE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
 

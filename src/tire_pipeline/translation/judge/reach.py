@@ -10,13 +10,11 @@ import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
 
+from tire_pipeline.tire_table.one_nominal_load import OWN_LOAD
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 _SHARE_INSIDE = 0.995  # share of the training data inside the edge
-
-OWN_LOAD = "own_nominal_load"
-"""Column with the nominal load that a file itself states, N, beside coefficients at another one."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,9 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.tir.reading.plausibility import unlike_iso
+from tire_pipeline.tire_table.one_nominal_load import OWN_LOAD
 from tire_pipeline.translation.curves.features import LOADS, encode
+from tire_pipeline.translation.curves.load_scale import LOAD_FACTOR
 from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.judge.bias_band import (
     CERTAINTY,
@@ -20,7 +22,7 @@ from tire_pipeline.translation.judge.bias_band import (
     measured_by_both,
 )
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
-from tire_pipeline.translation.judge.reach import OWN_LOAD, TrainingReach, beyond_judged_loads
+from tire_pipeline.translation.judge.reach import TrainingReach, beyond_judged_loads
 from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.shrinkage import shortened
@@ -269,9 +271,12 @@ def _other_loads(rows: pd.DataFrame) -> np.ndarray:
     if OWN_LOAD not in rows:
         return out
     load = rows[OWN_LOAD].to_numpy(dtype=float)
-    judged = f"side and longitudinal force are judged at {LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
-    for i in np.flatnonzero(beyond_judged_loads(load) > 1.0):
-        out[i] = f"{judged}, its nominal load is {float(f'{load[i] / 1e3:.3g}'):,g} kN"
+    beyond = np.flatnonzero(beyond_judged_loads(load) > 1.0)
+    factor = float(rows[LOAD_FACTOR].iloc[0]) if LOAD_FACTOR in rows else 1.0
+    load, low, high = (factor * values / 1e3 for values in (load, LOADS.min(), LOADS.max()))
+    judged = f"side and longitudinal force are judged at {low:.3g} to {high:.3g} kN"
+    for i in beyond:
+        out[i] = f"{judged}, its nominal load is {float(f'{load[i]:.3g}'):,g} kN"
     return out
 
 
