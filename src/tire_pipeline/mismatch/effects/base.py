@@ -264,10 +264,10 @@ class Effect:
         """Whether physics requires it: its driver varied, and the file has no term for it."""
         return False
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
-        """Return what is the same to the data and has no name, in words and with its kind; none by default.
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
+        """Return what is the same to the data at some parameters and has no name, in words, and its kind.
 
-        Kinds are those of effects: "physics" or "artefact".
+        None by default. Kinds are those of effects: "physics" or "artefact".
         """
         return None
 

@@ -91,16 +91,24 @@ class SurfaceChange(Effect):
         return (0.5 * data.states.time_span if name == "lag" else centre), width
 
     def outside(self, data: Context, p: Parameters) -> bool:
-        """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
-        first, last = data.time_line[0], data.time_line[-1]
-        edge = 0.05 * (last - first)
-        return bool(not first + edge < p["moment"] < last - edge)
+        """Ask for a tenth of the recording before and after: at its ends it is something that settles."""
+        return p["moment"] != self._moment(data, p)
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Change the friction, and the stiffness."""
-        ramp = np.clip((data.time_line - p["moment"]) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0)
+        ramp = np.clip(
+            (data.time_line - self._moment(data, p)) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0
+        )
         if p["lag"] > 0.0:
             ramp = -np.expm1(-ramp * p["duration"] / p["lag"])
         g = ramp - p["after"]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * g)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * g)
+
+    def _moment(self, data: Context, p: Parameters) -> float:
+        """Return the moment, within the recording: a step at its first or last sample is a constant.
+
+        That is another friction or stiffness, and has its own names.
+        """
+        begin, span = data.time_line - data.states.elapsed * data.states.time_span, data.states.time_span
+        return float(np.clip(p["moment"], begin[0] + 0.1 * span, begin[0] + 0.9 * span))

@@ -56,7 +56,7 @@ class InflationPressure(Effect):
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
         return not data.nominal.knows_pressure and data.varies("pressure")
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
         """A model that answers to pressure answers to a channel with another gain."""
         fault = "a wrong gain of the pressure channel", "artefact"
         return fault if data.nominal.knows_pressure else None
