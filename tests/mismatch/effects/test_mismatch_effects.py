@@ -19,8 +19,9 @@ PHYSICS = (
     "nonuniformity compliance surface_change rolling_resistance axle_load_transfer"
 ).split()
 ARTEFACTS = (
-    "force_offset force_gain load_gain load_offset slip_angle_offset slip_ratio_offset camber_offset "
-    "time_delay low_pass crosstalk sensor_drift sign_convention unit_error clipping stuck_channel"
+    "force_offset force_gain load_gain load_offset pressure_offset slip_angle_offset slip_ratio_offset "
+    "camber_offset time_delay low_pass crosstalk sensor_drift sign_convention unit_error clipping "
+    "stuck_channel"
 ).split()
 
 
@@ -47,8 +48,8 @@ def test_every_effect_says_what_it_covers_and_what_not(name):
     assert "Not covered" in said
 
 
-FITTED = [name for name in PHYSICS + ARTEFACTS if catalogue()[name].parameters]
-"""All but those that are found in a channel itself."""
+FITTED = [n for n in PHYSICS + ARTEFACTS if catalogue()[n].parameters and n != "pressure_offset"]
+"""All but those that are found in a channel itself, and one that needs a file which answers to pressure."""
 
 
 @pytest.fixture(scope="module")

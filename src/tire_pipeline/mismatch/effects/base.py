@@ -80,7 +80,7 @@ class State:
     Similarity (Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2): a tire whose friction is m
     times and whose slip stiffness is k times the model's gives ``m F(slip k / m)``; effects add to
     the logarithms of m and k. ``load_apart`` (N) is by how much the loads of two wheels differ from their
-    mean, whose forces are the mean of both.
+    mean, whose forces are the mean of both. ``pressure`` (Pa) is None where the model does not ask for it.
     """
 
     slip_angle: Array
@@ -95,6 +95,7 @@ class State:
     turn_slip: Array | None = None
     added_y: Array | float = 0.0
     load_apart: Array | None = None
+    pressure: Array | None = None
     forces: dict[str, Array] = field(default_factory=dict)
 
 
@@ -263,10 +264,10 @@ class Effect:
         """Whether physics requires it: its driver varied, and the file has no term for it."""
         return False
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
-        """Return what is the same to the data and has no name, in words and with its kind; none by default.
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
+        """Return what is the same to the data at some parameters and has no name, in words, and its kind.
 
-        Kinds are those of effects: "physics" or "artefact".
+        None by default. Kinds are those of effects: "physics" or "artefact".
         """
         return None
 

@@ -59,6 +59,10 @@ class OfModel(Protocol):
     def knows_camber(self) -> bool:
         """Whether the lateral force answers to camber."""
 
+    @property
+    def knows_pressure(self) -> bool:
+        """Whether the forces answer to the inflation pressure."""
+
     def load_excess(self, load: Array, right_at: float = 1.0) -> Array:
         """Return ``Fz / Fz0 - right_at``, faded outside of the loads that were explained."""
 

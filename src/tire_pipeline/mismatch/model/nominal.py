@@ -22,6 +22,7 @@ OF_CAMBER = {
 _SHARE_OF_LEVEL = 0.1
 """Share of a recording that makes a level: so there are ten at most, and each costs a search."""
 _PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
+_OF_PRESSURE = "PPX1 PPX2 PPX3 PPX4 PPY1 PPY2 PPY3 PPY4".split()
 
 
 @dataclass(frozen=True)
@@ -228,6 +229,12 @@ class NominalConditions:
     def knows_camber(self) -> bool:
         """Whether the model's lateral force responds to camber."""
         return any(self.coefficients.get(key, 0.0) for key in OF_CAMBER["fy"])
+
+    @cached_property
+    def knows_pressure(self) -> bool:
+        """Whether the model's forces answer to pressure."""
+        able = self.tire.version.startswith("6")
+        return able and any(self.coefficients.get(key, 0.0) for key in _OF_PRESSURE)
 
 
 def loads_of_file(tire: TireModel) -> tuple[float, float]:

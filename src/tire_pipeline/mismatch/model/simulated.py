@@ -59,6 +59,7 @@ class BaseSimulation:
             log_friction_y=zero,
             log_stiffness=zero,
             log_stiffness_y=zero,
+            pressure=self.nominal.model_pressure,
         )
 
     def relax(self, state: State) -> None:
@@ -88,7 +89,7 @@ class BaseSimulation:
                 camber=state.camber,
                 normal_load=load,
                 speed=self.nominal.model_speed,
-                pressure=self.nominal.model_pressure,
+                pressure=state.pressure,
             )
 
         forces = _mean_of_wheels(state, at)
@@ -107,7 +108,7 @@ class BaseSimulation:
         """
         m_x, ratio_x, m_y, ratio_y = _similarity(state)
         slip_angle = self._similar_slip_angle(state, ratio_y)
-        known = (("speed", self.nominal.model_speed), ("pressure", self.nominal.model_pressure))
+        known = (("speed", self.nominal.model_speed), ("pressure", state.pressure))
         more: dict[str, Any] = {n: v for n, v in known if v is not None}
         tire = self._tire(state)
 

@@ -57,6 +57,7 @@ def from_fit(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[st
     units = {p.name: p.unit for p in effect.parameters}
     own = {n: row for row, (i, n) in enumerate(fit.labels) if i == index}
     errors, ends, open_still = fit.errors, fit.intervals, fit.undetermined
+    fitted = {n: dict(answer.single(n)[0][1]) for n in group[1:]} | {name: fit.changes[index][1]}
     return EffectReport(
         name=name,
         kind=effect.kind,
@@ -73,7 +74,7 @@ def from_fit(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[st
         evidence={"log_evidence": answer.gains.get(name, float("nan"))},
         intervals={n: (float(ends[k, 0]), float(ends[k, 1])) for n, k in own.items()},
         undetermined=tuple(n for n, k in own.items() if open_still[k]),
-        same_to_data=tuple(filter(None, (catalogue()[n].same_to_data(data) for n in group))),
+        same_to_data=tuple(filter(None, (catalogue()[n].same_to_data(data, fitted[n]) for n in group))),
     )
 
 

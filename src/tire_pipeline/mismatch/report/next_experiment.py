@@ -68,7 +68,8 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     """
     open_names = _sets_that_are_open(answer)
     if not open_names:
-        alike = [names[0] for names, _ in answer.sets if catalogue()[names[0]].same_to_data(analysis.data)]
+        named = [change for change in answer.named.changes if change[0] in answer.names]
+        alike = [name for name, p in named if catalogue()[name].same_to_data(analysis.data, p)]
         return _own_experiment(alike[0]) if alike else ""
     sweeps = list(_sweeps(analysis))
     gains = np.array([[_gain(s, q.rivals, model, analysis) for q in open_names] for s in sweeps])

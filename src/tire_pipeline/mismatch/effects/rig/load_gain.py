@@ -33,7 +33,7 @@ class LoadGain(Effect):
     experiment = "hang known weights on the wheel, and compare the load channel with them"
     order = 8
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
         """At one load an offset of the channel is a factor."""
         return None if data.varies("normal_load") else ("an offset of the normal load", "artefact")
 

@@ -1,10 +1,10 @@
-"""Another surface from a moment on, or gradually."""
+"""Another surface or tire from a moment on, or a surface that changes gradually, as it dries."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
@@ -15,25 +15,41 @@ _LONGEST_GAP = 0.5
 
 
 class SurfaceChange(Effect):
-    """Friction changes at one moment, or gradually, and stays.
+    """Friction changes at one moment, or gradually, and stays; at one moment stiffness may change as well.
 
-    Covers one step for both forces, and one steady change over the whole recording, as rubber or dust is
-    laid down. Not covered: a way back, several patches, and a change over a part of the recording.
+    Covers one step for both forces, one steady change over the whole recording, and one that is fast at
+    first and settles, as a wet track dries or rubber is laid down. A step of stiffness, too, is another tire,
+    or the same one mounted anew. The model is right before the change or after it: the file may be of the wet
+    surface or of the dry one. Not covered: a way back, several patches, and a change over a part of the
+    recording.
     """
 
     name = "surface_change"
-    title = "another surface from a moment on, or gradually"
-    equation = "friction *= 1 + friction clip((t - moment) / duration + 1/2, 0, 1)"
-    source = "a step of LMUX = LMUY in time"
+    title = "another surface or tire from a moment on, or a surface that changes gradually"
+    equation = (
+        "friction *= 1 + friction (g - after); stiffness *= 1 + stiffness (g - after); "
+        "g = clip((t - moment) / duration + 1/2, 0, 1), or with a lag g = 1 - exp(-(t - t0) / lag), t0 the "
+        "begin; `after` is 1 where the model is right after the change"
+    )
+    source = (
+        "a step of LMUX = LMUY in time, for another tire of LKX = LKY, too; a film of water dries at a rate "
+        "in proportion to what is left"
+    )
     needs_time = True
     scanned = ("moment",)
     stepped = ("moment",)
     family = "slow"
-    prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"
+    prior_source = (
+        "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road; tires "
+        "of one size differ by about a quarter in stiffness"
+    )
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
+        Parameter("stiffness", "1", -0.7, 1.5, 0.01, further=True, prior=0.25),
         Parameter("moment", "s", -1e12, 1e12, 0.05, form=True),
         Parameter("duration", "s", _STEP_SECONDS, 1e12, 0.05, form=True),
+        Parameter("lag", "s", 0.0, 1e12, 0.5, form=True),
+        Parameter("after", "0 or 1", 0.0, 1.0, 0.1, form=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",
@@ -44,27 +60,55 @@ class SurfaceChange(Effect):
     order = 40
 
     def starts(self, data: Context) -> list[dict[str, float]]:
-        """Try steps over the whole recording, and a steady change from its begin to its end.
+        """Try steps over the whole recording, and changes from its begin to its end: steady, and settling.
 
-        A step in a long gap between two pieces would look the same.
+        A step in a long gap between two pieces would look like a steady change. One that settles does so
+        within a twelfth or a third of the recording.
         """
         first, last = data.time_line[0], data.time_line[-1]
-        forms = [(m, _STEP_SECONDS) for m in np.linspace(first, last, 26)[1:-1]]
-        if np.max(np.diff(data.time_line)) < _LONGEST_GAP * (last - first):
-            forms.append((0.5 * (first + last), last - first))
-        return [{"friction": 0.0, "moment": float(m), "duration": float(d)} for m, d in forms]
+        span = last - first
+        moments = np.linspace(first, last, 26)[1:-1]
+        forms = [
+            {"moment": float(m), "duration": _STEP_SECONDS, "stiffness": stiffness}
+            for stiffness in (0.0, TOO_SMALL_TO_SEE)
+            for m in moments
+        ]
+        if np.max(np.diff(data.time_line)) < _LONGEST_GAP * span:
+            whole = {"moment": float(0.5 * (first + last)), "duration": float(span)}
+            forms += [{**whole, "lag": float(lag)} for lag in (0.0, span / 12.0, span / 3.0)]
+        zero = self.zeros(data)
+        return [{**zero, **form, "after": after} for after in (0.0, 1.0) for form in forms]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
-        """Friction, and the moment of a step; a steady change lasts the whole recording."""
-        return ("friction", "moment") if start["duration"] <= _STEP_SECONDS else ("friction",)
+        """Friction, the moment of a step and its stiffness, or the lag; a gradual change lasts throughout."""
+        if start["duration"] > _STEP_SECONDS:
+            return ("friction", "lag") if start["lag"] else ("friction",)
+        return ("friction", "stiffness", "moment") if start["stiffness"] else ("friction", "moment")
+
+    def usual(self, data: Context, name: str) -> tuple[float, float]:
+        """Let a change settle within the recording: one that is far slower is none, but another friction."""
+        centre, width = super().usual(data, name)
+        return (0.5 * data.states.time_span if name == "lag" else centre), width
 
     def outside(self, data: Context, p: Parameters) -> bool:
-        """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
-        first, last = data.time_line[0], data.time_line[-1]
-        edge = 0.05 * (last - first)
-        return bool(not first + edge < p["moment"] < last - edge)
+        """Ask for a tenth of the recording before and after: at its ends it is something that settles."""
+        return p["moment"] != self._moment(data, p)
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
-        """Change the friction."""
-        ramp = np.clip((data.time_line - p["moment"]) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0)
-        state.log_friction = state.log_friction + safe_log1p(p["friction"] * ramp)
+        """Change the friction, and the stiffness."""
+        ramp = np.clip(
+            (data.time_line - self._moment(data, p)) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0
+        )
+        if p["lag"] > 0.0:
+            ramp = -np.expm1(-ramp * p["duration"] / p["lag"])
+        g = ramp - p["after"]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * g)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * g)
+
+    def _moment(self, data: Context, p: Parameters) -> float:
+        """Return the moment, within the recording: a step at its first or last sample is a constant.
+
+        That is another friction or stiffness, and has its own names.
+        """
+        begin, span = data.time_line - data.states.elapsed * data.states.time_span, data.states.time_span
+        return float(np.clip(p["moment"], begin[0] + 0.1 * span, begin[0] + 0.9 * span))

@@ -33,7 +33,7 @@ class ForceGain(Effect):
     experiment = "hang a known weight on the load cell; or one sweep to full sliding"
     order = 84
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
         """Friction and stiffness times one factor are the force times it, by similarity (Pacejka, 4.2.1)."""
         return "a tire with friction and slip stiffness off by the same factor", "physics"
 

@@ -59,7 +59,7 @@ class Camber(Effect):
         """
         return not data.nominal.knows_camber and data.varies("camber")
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
         """A model that answers to camber answers to a channel with another gain."""
         fault = "a wrong sign or gain of the camber channel", "artefact"
         return fault if data.nominal.knows_camber else None

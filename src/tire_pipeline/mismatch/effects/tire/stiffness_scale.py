@@ -47,7 +47,7 @@ class StiffnessScale(Effect):
     )
     order = 40
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
         """The slip times a factor is the stiffness times this factor."""
         return "a wrong gain of the slip channel", "artefact"
 

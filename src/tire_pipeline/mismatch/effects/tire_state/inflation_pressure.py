@@ -9,8 +9,6 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
-_OF_PRESSURE = "PPX1 PPX2 PPX3 PPX4 PPY1 PPY2 PPY3 PPY4".split()
-
 
 class InflationPressure(Effect):
     """The model is right at one pressure and wrong at others, or at the one that was recorded.
@@ -56,11 +54,12 @@ class InflationPressure(Effect):
 
     def expected(self, data: Context) -> bool:
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
-        return not _known(data) and data.varies("pressure")
+        return not data.nominal.knows_pressure and data.varies("pressure")
 
-    def same_to_data(self, data: Context) -> tuple[str, str] | None:
-        """A model that answers to pressure answers to a channel with another zero."""
-        return ("a wrong zero or gain of the pressure channel", "artefact") if _known(data) else None
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
+        """A model that answers to pressure answers to a channel with another gain."""
+        fault = "a wrong gain of the pressure channel", "artefact"
+        return fault if data.nominal.knows_pressure else None
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""
@@ -102,11 +101,6 @@ class InflationPressure(Effect):
             "PPY3": c.get("PPY3", 0.0) + p["friction"],
             "PPY4": c.get("PPY4", 0.0) + p["friction_curvature"],
         }
-
-
-def _known(data: Context) -> bool:
-    """Whether the file answers to pressure."""
-    return any(data.nominal.coefficients.get(n, 0.0) for n in _OF_PRESSURE)
 
 
 def _excess(data: Context, p: Parameters) -> np.ndarray:

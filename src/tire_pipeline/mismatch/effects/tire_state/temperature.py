@@ -105,6 +105,13 @@ class Temperature(Effect):
             return 0.5, _AROUND_BLIND
         return float(np.median(data.smooth("tread_temperature"))), _USUALLY_OFF
 
+    def same_to_data(self, data: Context, p: Parameters) -> tuple[str, str] | None:
+        """A file that is right at no temperature of the recording is off throughout, as another tire is."""
+        felt = self._felt(data, p)
+        if np.min(felt) < p["reference"] < np.max(felt):
+            return None
+        return "a tire with another friction and another slip stiffness at every temperature", "physics"
+
     def drivers(self, output: str) -> tuple[str, ...]:
         """Return the temperature; where it is not recorded, the effect is placed in time."""
         return ("tread_temperature",)
@@ -121,10 +128,12 @@ class Temperature(Effect):
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness."""
-        if self.blind(data):
-            d = data.states.heat(p["lag"]) - p["reference"]
-        else:
-            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0
+        d = self._felt(data, p) - p["reference"]
+        d = d if self.blind(data) else d / 50.0
         change = p["friction"] * d - p["curvature"] * d**2
         state.log_friction = state.log_friction + safe_log1p(change)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
+
+    def _felt(self, data: Context, p: Parameters) -> np.ndarray:
+        """Temperature, degC, or the integrated heat where no channel has it."""
+        return data.states.heat(p["lag"]) if self.blind(data) else data.smooth("tread_temperature")
