@@ -15,9 +15,7 @@ import pandas as pd
 
 from tire_pipeline.tire_table import normalize_table
 from tire_pipeline.tire_table.one_nominal_load import OWN_LOAD
-
-CAR_LOAD = 4500.0
-"""Nominal load (N) of a usual car tire: where the files state about that, the factor is 1."""
+from tire_pipeline.translation.curves.features import LOADS
 
 LOAD_FACTOR = "load_factor"
 """Column with the factor, beside tires that :meth:`LoadScale.scaled` gave."""
@@ -32,7 +30,8 @@ class LoadScale:
     Attributes
     ----------
     factor : float
-        1 for car tires, and where the files' own nominal loads are not known.
+        1 for car tires, whose nominal loads lie about the mean of ``LOADS``, and where the files'
+        own nominal loads are not known.
     """
 
     factor: float = 1.0
@@ -43,7 +42,7 @@ class LoadScale:
         if OWN_LOAD not in training:
             return cls()
         usual = float(training[OWN_LOAD].median())
-        steps = round(_STEPS_TO_DOUBLE * np.log2(usual / CAR_LOAD))
+        steps = round(_STEPS_TO_DOUBLE * np.log2(usual / LOADS.mean()))
         return cls(2.0 ** (steps / _STEPS_TO_DOUBLE))
 
     def scaled(self, table: pd.DataFrame) -> pd.DataFrame:
