@@ -19,14 +19,6 @@ def test_a_track_that_dries_is_not_named_a_temperature_alone(tire, record, lags,
 
 
 @pytest.mark.slow
-@beside(*RIVALS)
-def test_a_file_of_the_later_surface_needs_one_name(tire, record, without):
-    late = np.linspace(0.0, 1.0, len(record())) > 0.45
-    (found,) = named_sets(tire, record(friction=np.where(late, 1.0, 0.85)), without)
-    assert "surface_change" in found
-
-
-@pytest.mark.slow
 @beside(*RIVALS, "stiffness_scale")
 def test_a_tire_that_was_changed_is_no_wear(tire, record, without):
     """Friction and stiffness that step at one moment were wear."""

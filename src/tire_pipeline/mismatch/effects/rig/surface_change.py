@@ -19,9 +19,9 @@ class SurfaceChange(Effect):
 
     Covers one step for both forces, one steady change over the whole recording, and one that is fast at
     first and settles, as a wet track dries or rubber is laid down. A step of stiffness, too, is another tire,
-    or the same one mounted anew. The model is right before the change or after it: the file may be of the wet
-    surface or of the dry one. Not covered: a way back, several patches, and a change over a part of the
-    recording.
+    or the same one mounted anew. The model is right before the change; where one settles, before or after it,
+    as the file may be of the wet surface or of the dry one. Not covered: a way back, several patches, and a
+    change over a part of the recording.
     """
 
     name = "surface_change"
@@ -68,16 +68,14 @@ class SurfaceChange(Effect):
         first, last = data.time_line[0], data.time_line[-1]
         span = last - first
         moments = np.linspace(first, last, 26)[1:-1]
-        forms = [
-            {"moment": float(m), "duration": _STEP_SECONDS, "stiffness": stiffness}
-            for stiffness in (0.0, TOO_SMALL_TO_SEE)
-            for m in moments
-        ]
+        steps = [{"moment": float(m), "duration": _STEP_SECONDS} for m in moments]
+        forms = [*steps, *({**s, "stiffness": TOO_SMALL_TO_SEE} for s in steps)]
         if np.max(np.diff(data.time_line)) < _LONGEST_GAP * span:
             whole = {"moment": float(0.5 * (first + last)), "duration": float(span)}
-            forms += [{**whole, "lag": float(lag)} for lag in (0.0, span / 12.0, span / 3.0)]
+            settling = [{**whole, "lag": float(lag)} for lag in (span / 12.0, span / 3.0)]
+            forms += [whole, *settling, *({**s, "after": 1.0} for s in settling)]
         zero = self.zeros(data)
-        return [{**zero, **form, "after": after} for after in (0.0, 1.0) for form in forms]
+        return [{**zero, **form} for form in forms]
 
     def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Friction, the moment of a step and its stiffness, or the lag; a gradual change lasts throughout."""
