@@ -33,7 +33,7 @@ class PressureOffset(Effect):
         "stiffness_scale": "another stiffness is the same at every pressure and load",
     }
     experiment = (
-        "read the pressure channel with the valve open, and look whether the file means gauge pressure"
+        "look what the pressure channel says with the valve open, and whether the file means gauge pressure"
     )
     order = 8
 
