@@ -100,8 +100,9 @@ def test_a_pressure_that_varied_is_expected_where_the_file_has_no_coefficient_of
     data = prepare(tire, record(4)).data
     effect = catalogue()["inflation_pressure"]
     assert effect.expected(data)
-    knows = prepare(tire.to_version("6.1").replace(PPY1=0.5), record(4)).data
-    assert not effect.expected(knows)
+    able = tire.to_version("6.1").replace(PPY1=0.5)
+    assert effect.expected(prepare(able, record(4)).data)  # ... and no nominal pressure
+    assert not effect.expected(prepare(able.replace(NOMPRES=2.2e5), record(4)).data)
 
 
 @pytest.mark.parametrize(

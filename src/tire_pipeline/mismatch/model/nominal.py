@@ -232,8 +232,8 @@ class NominalConditions:
 
     @cached_property
     def knows_pressure(self) -> bool:
-        """Whether the model's forces answer to pressure."""
-        able = self.tire.version.startswith("6")
+        """Whether the model's forces answer to pressure: without a nominal one nothing is off it."""
+        able = self.tire.version.startswith("6") and self.coefficients.get("NOMPRES", 0.0) > 0.0
         return able and any(self.coefficients.get(key, 0.0) for key in _OF_PRESSURE)
 
 
