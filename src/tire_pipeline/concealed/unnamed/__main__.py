@@ -32,7 +32,7 @@ from tire_pipeline.tasks import one_thread
 
 SEEDS = {"tuning": 20261124, "sealed": 20261270}
 """Each sealed run has its own, drawn before it: 20261129 was that of 2026-11-24, 10296229 that of 11-27, and
-20261260 that of 11-28."""
+20261260 that of 11-28, 20261262 that of 11-29."""
 PAGE_OF_HALF = {"tuning": "docs/history/proofs.md", "sealed": "docs/explanation/concealed_results.md"}
 """Which page takes the scores of each half."""
 ROWS = 4000

@@ -74,6 +74,11 @@ def play(x: np.ndarray, width: float, start: np.ndarray) -> np.ndarray:
     return out
 
 
+def settling_lags(span: float) -> tuple[float, float]:
+    """Return lags, s, with which a change settles early or late in a recording of so many seconds."""
+    return span / 12.0, span / 3.0
+
+
 @njit(cache=True)
 def _ramp(before: float, now: float, step: float, gain: float) -> float:
     """Constant input that has the same effect over one step as a ramp from before to now."""

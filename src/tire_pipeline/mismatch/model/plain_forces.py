@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import ALIGNING_MOMENT, POINT_CHANNELS, SLIP_AND_LOAD, TANGENTIAL_FORCES
 
 Array = np.ndarray
 _FRICTION_AND_STIFFNESS = {
@@ -65,6 +65,14 @@ def forces_at(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
     """
     zero = np.zeros(channels["normal_load"].size)
     return plain_forces(tire, **{n: channels.get(n, zero) for n in SLIP_AND_LOAD})
+
+
+def moment_at(tire: Any, channels: Mapping[str, Array]) -> Array:
+    """Return the aligning moment in N m at some channels, as :func:`forces_at`; NaN without a radius."""
+    inputs = {n: channels[n] for n in POINT_CHANNELS if n in channels}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return np.asarray(tire.forces(**inputs, limits="ignore", outputs=(ALIGNING_MOMENT,)).mz, float)
 
 
 def slip_at_peak(tire: Any, output: str, load: Array) -> Array:

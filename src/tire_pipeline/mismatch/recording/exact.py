@@ -12,12 +12,11 @@ import scipy
 
 from tire_pipeline.channels import ALIGNING_MOMENT
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import beside_sae, turned, with_moment
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
-from tire_pipeline.mismatch.model.plain_forces import forces_at
+from tire_pipeline.mismatch.model.plain_forces import forces_at, moment_at
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.pages.numbers_in_words import in_digits
 from tire_pipeline.recordings.conventions.axis_systems import NOT_STATED
@@ -114,9 +113,8 @@ def _moment_is_turned(tire: Any, arrays: Mapping[str, Array], pick: Array) -> bo
     """
     if ALIGNING_MOMENT not in arrays:
         return False
-    inputs = {n: arrays[n][pick] for n in POINT_CHANNELS if n in arrays}
-    model = np.asarray(tire.forces(**inputs, limits="ignore", outputs=(ALIGNING_MOMENT,)).mz)
-    return float(np.nansum(arrays[ALIGNING_MOMENT][pick] * model)) < 0.0
+    some = {n: a[pick] for n, a in arrays.items()}
+    return float(np.nansum(some[ALIGNING_MOMENT] * moment_at(tire, some))) < 0.0
 
 
 def _of_two_units(channel: str, last: Finding, findings: Iterable[Finding]) -> RecordingError:

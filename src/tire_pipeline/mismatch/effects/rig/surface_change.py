@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
-from tire_pipeline.mismatch.effects.shared import safe_log1p
+from tire_pipeline.mismatch.effects.shared import safe_log1p, settling_lags
 
 _STEP_SECONDS = 0.2
 """s over which friction steps, so that the moment can be refined."""
@@ -72,7 +72,7 @@ class SurfaceChange(Effect):
         forms = [*steps, *({**s, "stiffness": TOO_SMALL_TO_SEE} for s in steps)]
         if np.max(np.diff(data.time_line)) < _LONGEST_GAP * span:
             whole = {"moment": float(0.5 * (first + last)), "duration": float(span)}
-            settling = [{**whole, "lag": float(lag)} for lag in (span / 12.0, span / 3.0)]
+            settling = [{**whole, "lag": lag} for lag in settling_lags(float(span))]
             forms += [whole, *settling, *({**s, "after": 1.0} for s in settling)]
         zero = self.zeros(data)
         return [{**zero, **form} for form in forms]
@@ -108,5 +108,6 @@ class SurfaceChange(Effect):
 
         That is another friction or stiffness, and has its own names.
         """
-        begin, span = data.time_line - data.states.elapsed * data.states.time_span, data.states.time_span
-        return float(np.clip(p["moment"], begin[0] + 0.1 * span, begin[0] + 0.9 * span))
+        span = data.states.time_span
+        begin = data.time_line[0] - data.states.elapsed[0] * span
+        return float(np.clip(p["moment"], begin + 0.1 * span, begin + 0.9 * span))

@@ -7,6 +7,7 @@ import numpy as np
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
+from tire_pipeline.mismatch.effects.shared import settling_lags
 
 _LEAST_LAG, _MOST_LAG = 1.0, 300.0
 """s, of a load cell or an amplifier that warms up."""
@@ -51,7 +52,7 @@ class SensorDrift(Effect):
     def starts(self, data: Context) -> list[dict[str, float]]:
         """In proportion to time, settling within a twelfth or a third of the recording, or of the load."""
         zero, span = self.zeros(data), data.states.time_span
-        lags = [lag for lag in (span / 12.0, span / 3.0) if _LEAST_LAG < lag < _MOST_LAG]
+        lags = [lag for lag in settling_lags(span) if _LEAST_LAG < lag < _MOST_LAG]
         of_load = {**zero, "normal_load": TOO_SMALL_TO_SEE}
         return [zero, *({**zero, "lag": lag} for lag in lags), of_load]
 

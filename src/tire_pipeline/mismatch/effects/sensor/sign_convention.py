@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_OF_FORCE
+from tire_pipeline.channels import ALIGNING_MOMENT, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
@@ -165,8 +165,8 @@ def turned(findings: Iterable[Finding]) -> list[Finding]:
 
 def with_moment(finding: Finding) -> Finding:
     """Return a finding on signs with the aligning moment among the channels that have the other one."""
-    turned_alike = [(*names, "mz") for names in finding.alike]
-    return _finding(f"{finding.channel}, mz", {}, turned_alike)
+    turned_alike = [(*names, ALIGNING_MOMENT) for names in finding.alike]
+    return _finding(f"{finding.channel}, {ALIGNING_MOMENT}", {}, turned_alike)
 
 
 @dataclass(frozen=True)
@@ -310,7 +310,9 @@ def _finding(name: str, repaired: dict[str, Array], alike: Iterable[tuple[str, .
     text = f"{name} {have} the other sign"
     alike = tuple(alike)
     if alike:
-        sets = (" and ".join(s) + (" (SAE axes)" if set(s) - {"mz"} == _SAE else "") for s in alike)
+        sets = (
+            " and ".join(s) + (" (SAE axes)" if set(s) - {ALIGNING_MOMENT} == _SAE else "") for s in alike
+        )
         same = " or if ".join(sets)
         text += f"; it would look the same if {same} had"
     return Finding("sign_convention", name, text, parameters, repaired, alike=alike, axes=True)
